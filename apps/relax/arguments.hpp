@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vesica/io/config.hpp"
+
+namespace vesica {
+
+/// The command line of vesica-relax.
+struct Arguments {
+  std::string case_file;
+  std::vector<std::string> overrides;  ///< "table.key=value"
+  std::string directory;               ///< empty: that of the case file
+  bool overwrites = false;
+  bool is_quiet = false;
+};
+
+/// Arguments of a run, or the exit status when there is nothing to run (help, version, template,
+/// wrong use).
+struct ParsedCommandLine {
+  std::optional<Arguments> arguments;
+  int status = 0;
+};
+
+[[nodiscard]] ParsedCommandLine parse_command_line(int argc, char** argv);
+
+/// The case file with what the command line sets. Throws ConfigError.
+[[nodiscard]] io::RunConfig read_config(const Arguments& arguments);
+
+}  // namespace vesica

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace vesica {
+
+/// Version of the library that is running, "major.minor.patch".
+[[nodiscard]] std::string_view version();
+
+}  // namespace vesica

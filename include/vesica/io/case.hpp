@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vesica/io/config.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/problem/state.hpp"
+
+namespace vesica::io {
+
+/// A run ready to be computed.
+struct Case {
+  model::Model model;
+  problem::State
+      start;  ///< positions and order parameter; curvature, rates and multipliers are zero
+  std::vector<std::string> warnings;  ///< legal input that probably is not meant, one sentence each
+};
+
+/// Surface, initial phase, targets and material of the configuration. Throws ConfigError when they
+/// do not fit together, IoError when a surface or phase file cannot be read.
+[[nodiscard]] Case make_case(const RunConfig& config);
+
+}  // namespace vesica::io

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/mesh/shapes.hpp"
+#include "vesica/model/constraints.hpp"
+#include "vesica/model/material.hpp"
+#include "vesica/problem/initial_phase.hpp"
+#include "vesica/relax/damping_controller.hpp"
+#include "vesica/relax/stationarity.hpp"
+#include "vesica/solve/solver_options.hpp"
+
+namespace vesica::io {
+
+/// What a run writes and where.
+struct OutputOptions {
+  std::string directory = "out";
+  int every_steps = 5;
+  bool paraview = true;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"directory", "-", "folder of the run, made if it does not exist"}, self.directory);
+    visit(Field{"every_steps", "-", "a frame every so many steps, besides the first and the last",
+                Rule::at_least_one},
+          self.every_steps);
+    visit(Field{"paraview", "-", "write trajectory.xdmf, which ParaView opens"}, self.paraview);
+  }
+};
+
+/// Changes of the mesh during a run. Not available in this version: `enabled = true` is refused.
+struct AdaptionOptions {
+  bool enabled = false;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"enabled", "-", "adapt the mesh during the run; not available in this version"},
+          self.enabled);
+  }
+};
+
+/// Presets of `solver.rtol` and `stop.normal_velocity` for a case that does not give them:
+/// draft 1e-2 and 1e-2; normal: the defaults; reference 1e-5 and 1e-4. It stands in the table
+/// [solver].
+enum class Accuracy { draft, normal, reference };
+
+/// A table of the case file: its name, and one line for the template.
+struct Table {
+  std::string_view name;
+  std::string_view meaning;
+};
+
+/// Everything a case file says, with a default for what it leaves out.
+struct RunConfig {
+  std::string title;
+  mesh::ShapeOptions shape;
+  std::optional<problem::PhaseOptions> phase;  ///< absent: single-phase vesicle
+  model::MaterialOptions material;
+  model::ConstraintOptions constraints;
+  Accuracy accuracy = Accuracy::normal;
+  solve::SolverOptions solver;
+  relax::DampingOptions damping;
+  relax::StopOptions stop;
+  AdaptionOptions adaption;
+  OutputOptions output;
+
+  template <class Self, class Visitor>
+  static void tables(Self& self, Visitor&& visit) {
+    visit(Table{"shape", "starting surface; each kind has its own keys"}, self.shape);
+    visit(Table{"phase", "initial order parameter; leave the table out for a single-phase vesicle"},
+          self.phase);
+    visit(Table{"material", "the membrane; phase 1 is c = +1, phase 2 is c = -1"}, self.material);
+    visit(Table{"constraints", "what is kept fixed"}, self.constraints);
+    visit(Table{"solver", "how the equations are solved"}, self.solver);
+    visit(Table{"damping", "tangential damping alpha of the mesh velocity, (3.4)"}, self.damping);
+    visit(Table{"stop", "when the run ends"}, self.stop);
+    visit(Table{"adaption", "changes of the mesh during the run"}, self.adaption);
+    visit(Table{"output", "what is written, and where"}, self.output);
+  }
+};
+
+/// Reads a case file and then `overrides`, each "table.key=value" with a TOML value; a bare word
+/// that is no TOML value counts as a string. Throws ConfigError, `file:line:column: table.key =
+/// value: rule`, for a file that is unreadable or no TOML, an unknown or repeated key, a wrong
+/// type, a value that breaks its rule. In messages about an override its text stands in place of
+/// file, line and column.
+[[nodiscard]] RunConfig read_config(const std::string& path,
+                                    std::span<const std::string> overrides);
+
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] RunConfig read_config_text(std::string_view text, std::string_view name,
+                                         std::span<const std::string> overrides);
+
+/// A case file with every table and option, its default, unit and meaning. Options are commented
+/// out (`#key = default`), so the file reads back as the default RunConfig.
+void write_template(std::ostream& out);
+
+/// The effective configuration as a case file that reads back as the same RunConfig.
+[[nodiscard]] std::string to_toml(const RunConfig& config);
+
+}  // namespace vesica::io
+
+namespace vesica {
+template <>
+struct EnumNames<io::Accuracy> {
+  static constexpr std::array<std::pair<io::Accuracy, std::string_view>, 3> names{
+      {{io::Accuracy::draft, "draft"},
+       {io::Accuracy::normal, "normal"},
+       {io::Accuracy::reference, "reference"}}};
+};
+}  // namespace vesica

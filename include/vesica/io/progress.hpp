@@ -1,0 +1,39 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "vesica/relax/observer.hpp"
+
+namespace vesica::io {
+
+/// rewriting: one line that is written anew after every step (terminals); sparse: a line for the
+/// first step, then about every ten steps or five seconds, and the last (pipes, files); none:
+/// silence.
+enum class ProgressStyle { rewriting, sparse, none };
+
+/// Tells on a console how a run goes.
+class Progress final : public relax::Observer {
+ public:
+  /// `out` must outlive the observer.
+  Progress(std::ostream& out, ProgressStyle style) : out_(out), style_(style) {}
+  void observe(const relax::StepView& view) override;
+  void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
+
+ private:
+  [[nodiscard]] bool is_due(const relax::StepView& view) const;
+  void write(const relax::StepView& view);
+
+  std::ostream& out_;
+  ProgressStyle style_;
+  bool is_first_ = true;
+  long last_step_ = 0;
+  double last_seconds_ = 0;
+};
+
+/// `step 37  t 0.1234  dt 1.2e-02  order 2  F 58.848702  v 1.2e-03  C 1.0e-09  q 0.512`: time, step
+/// size, order of the method, energy, normal velocity over R_c (rigid motion removed), largest
+/// relative constraint error, mesh quality.
+[[nodiscard]] std::string progress_line(const relax::StepView& view);
+
+}  // namespace vesica::io

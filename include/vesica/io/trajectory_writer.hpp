@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "vesica/io/case.hpp"
+#include "vesica/io/config.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/relax/observer.hpp"
+
+namespace vesica::io {
+
+/// Writes `trajectory.h5`, the record of a run (layout: docs/output.md), and `trajectory.xdmf`,
+/// which lets ParaView open it. While the run goes on they are called `trajectory.part.h5` and
+/// `trajectory.part.xdmf` and are complete up to the last frame; finish() gives them their names,
+/// so an older run in the folder stays whole until then.
+class TrajectoryWriter final : public relax::Observer {
+ public:
+  /// Makes `trajectory.part.h5` in `folder`, which exists. Throws IoError.
+  TrajectoryWriter(std::filesystem::path folder, const RunConfig& config,
+                   const model::Model& model);
+  ~TrajectoryWriter() override;
+
+  /// A row of the time series; a frame for step 0 and every `output.every_steps` steps. Throws
+  /// IoError, after which nothing more is written.
+  void observe(const relax::StepView& view) override;
+  /// The final frame, the outcome, and the names of a finished run. Throws IoError.
+  void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
+
+ private:
+  class Writer;
+  std::unique_ptr<Writer> writer_;
+};
+
+/// The outcome of a run whose stepper could not be made: a numerical failure with energies and
+/// velocities NaN. Makes the run folder and a trajectory with the start as its only frame
+/// (curvature zero). Throws IoError.
+[[nodiscard]] relax::Outcome record_failed_start(const RunConfig& config, const Case& vesicle,
+                                                 std::string reason);
+
+}  // namespace vesica::io

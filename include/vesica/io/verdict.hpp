@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+#include "vesica/io/config.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/state.hpp"
+#include "vesica/relax/observer.hpp"
+
+namespace vesica::io {
+
+/// What a run ended with: the content of `verdict.json`.
+struct Verdict {
+  relax::Outcome outcome;
+  std::string method;  ///< name of the integrator, as in the case file
+  double time = 0;     ///< [time]
+  problem::PerConstraint multipliers;
+  problem::ShapeNumbers shape;
+  std::int32_t num_nodes = 0;
+  std::int32_t num_triangles = 0;
+};
+
+/// The verdict on `state`, the last good one.
+[[nodiscard]] Verdict make_verdict(relax::Outcome outcome, std::string_view method,
+                                   const model::Model& model, const problem::State& state);
+
+/// The JSON text of `verdict.json`; keys in docs/output.md.
+[[nodiscard]] std::string to_json(const Verdict& verdict);
+
+/// Writes `verdict.json` and the effective configuration `case.toml` to the output folder of
+/// `config`. Throws IoError.
+void write_verdict(const RunConfig& config, const Verdict& verdict);
+
+/// The verdict as a table for people.
+void print_verdict(std::ostream& out, const Verdict& verdict);
+/// The files of a finished run, one a line.
+void print_files(std::ostream& out, const RunConfig& config);
+
+/// "converged", "time limit", "step limit", "interrupted", "numerical failure"; "stopped" when a
+/// controller of the user ended the run.
+[[nodiscard]] std::string_view status_name(relax::RunStatus status);
+
+/// Exit status of the program: 0 converged, 1 stopped before convergence, 3 numerical failure, 128
+/// + signal interrupted (130 SIGINT, 143 SIGTERM).
+[[nodiscard]] int exit_status(const relax::Outcome& outcome);
+
+}  // namespace vesica::io

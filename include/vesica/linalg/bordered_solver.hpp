@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <memory>
+
+#include "vesica/linalg/direct_solver.hpp"
+
+namespace vesica::linalg {
+
+/// Sparse matrix K bordered by a few dense columns and rows:
+///
+///     [ K  columns ]      K (n, n),  columns (n, m),  rows (m, n)
+///     [ rows   0   ]
+struct BorderedMatrix {
+  SparseMatrix block;
+  Eigen::MatrixXd columns;
+  Eigen::MatrixXd rows;
+
+  [[nodiscard]] Eigen::Index size() const { return columns.rows() + columns.cols(); }
+  [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
+};
+
+/// Solves bordered systems by block elimination with one factorisation of K: dense rows never enter
+/// the factors.
+class BorderedSolver {
+ public:
+  /// The pattern of `matrix.block` is analysed here, once.
+  BorderedSolver(DirectSolverKind kind, const BorderedMatrix& matrix, int block_size);
+
+  /// Throws RecoverableError when K or the border is singular.
+  void factorise(const BorderedMatrix& matrix);
+  /// x = A^-1 b, both of length n + m.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd solve_block(const Eigen::VectorXd& b) const;
+
+  std::unique_ptr<DirectSolver> direct_;
+  Eigen::MatrixXd rows_;
+  Eigen::MatrixXd solved_columns_;  // K^-1 columns
+  Eigen::FullPivLU<Eigen::MatrixXd> schur_;
+};
+
+}  // namespace vesica::linalg

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/linalg/sparse_matrix.hpp"
+
+namespace vesica::linalg {
+
+enum class DirectSolverKind { umfpack, klu };
+
+#ifdef VESICA_WITHOUT_UMFPACK
+inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::klu;
+#else
+inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::umfpack;
+#endif
+
+/// Sparse LU. The pattern is analysed once, at construction; one of the four abstract classes of
+/// the library.
+class DirectSolver {
+ public:
+  DirectSolver() = default;
+  DirectSolver(const DirectSolver&) = delete;
+  DirectSolver& operator=(const DirectSolver&) = delete;
+  virtual ~DirectSolver() = default;
+
+  /// Numerical factorisation of a matrix with the pattern given at construction.
+  /// Throws RecoverableError when the matrix is singular or holds a NaN, SolverError when the
+  /// library refuses.
+  virtual void factorise(const SparseMatrix& matrix) = 0;
+  /// Solves A x = b with the last factors; `b` and `x` may not overlap.
+  virtual void solve(std::span<const double> b, std::span<double> x) const = 0;
+};
+
+/// Makes a solver for the pattern of `matrix`, whose unknowns come in groups of `block_size` that
+/// share a node: the fill-reducing ordering (METIS nested dissection) is taken on the graph of the
+/// nodes. Throws ConfigError for a solver that this build leaves out.
+[[nodiscard]] std::unique_ptr<DirectSolver> make_direct_solver(DirectSolverKind kind,
+                                                               const SparseMatrix& matrix,
+                                                               int block_size);
+
+}  // namespace vesica::linalg
+
+namespace vesica {
+template <>
+struct EnumNames<linalg::DirectSolverKind> {
+  static constexpr std::array<std::pair<linalg::DirectSolverKind, std::string_view>, 2> names{
+      {{linalg::DirectSolverKind::umfpack, "umfpack"}, {linalg::DirectSolverKind::klu, "klu"}}};
+};
+}  // namespace vesica

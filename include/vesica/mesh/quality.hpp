@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "vesica/mesh/triangulation.hpp"
+
+namespace vesica::mesh {
+
+// "Sub-triangles" are the four flat triangles between neighbouring nodes of a quadratic triangle:
+// (0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5). Positions have shape (num_nodes, 3).
+
+/// q = min over sub-triangles of the sine of their inner angles, (3.5); in (0, sqrt(3)/2].
+/// 0 when a sub-triangle has no area.
+[[nodiscard]] double quality(const Triangulation& triangulation, const Positions& positions);
+
+/// Longest and mean distance between two corners of one triangle [length].
+[[nodiscard]] double longest_edge(const Triangulation& triangulation, const Positions& positions);
+[[nodiscard]] double mean_edge(const Triangulation& triangulation, const Positions& positions);
+
+/// Area of the four sub-triangles of each triangle [length^2], shape (num_triangles).
+[[nodiscard]] std::vector<double> element_areas(const Triangulation& triangulation,
+                                                const Positions& positions);
+
+/// Largest element area over the smallest, >= 1; infinite when an element has no area.
+[[nodiscard]] double area_ratio(const Triangulation& triangulation, const Positions& positions);
+
+/// Volume enclosed by the quadratic surface [length^3], 1/3 int x . nu: exact up to rounding,
+/// positive for outward orientation.
+[[nodiscard]] double enclosed_volume(const Triangulation& triangulation,
+                                     const Positions& positions);
+
+/// Returns `surface` if it can carry a membrane and throws ConfigError otherwise, naming the first
+/// offending node, face or edge: positions that are not finite, coincident nodes of one triangle,
+/// a sub-triangle without area (below 1e-10 of its longest side squared), a folded triangle
+/// (normals of two sub-triangles more than 90 degrees apart), neighbours folded onto each other
+/// (normals at the common edge more than 150 degrees apart), a component that is inside out
+/// (encloses negative volume). With `flip` such a component is turned inside in: its triangles
+/// (0, 1, 2, 3, 4, 5) become (0, 2, 1, 5, 4, 3), node numbers and positions stay.
+/// Intersections of the surface with itself are not looked for.
+[[nodiscard]] Surface check_geometry(Surface surface, bool flip);
+
+}  // namespace vesica::mesh

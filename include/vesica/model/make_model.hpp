@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "vesica/model/constraints.hpp"
+#include "vesica/model/material.hpp"
+#include "vesica/model/model.hpp"
+
+namespace vesica::model {
+
+/// What the start has; "initial" targets take it.
+struct Measures {
+  double volume = 0;  ///< [length^3]
+  double area = 0;    ///< [length^2]
+  std::optional<double>
+      phase_difference;  ///< int h(c) [length^2]; absent before the phase field exists
+};
+
+/// Targets from the options: resolves "initial" with `start` and reduced numbers with the area
+/// target. A phase target that needs a phase field not yet made (`start.phase_difference` absent)
+/// stays absent. Throws ConfigError for targets that no surface satisfies: reduced volume above 1,
+/// |A_1 - A_2| above the area, a quantity given twice, a phase target for a single-phase vesicle, a
+/// ramp with t1 < t0.
+[[nodiscard]] Targets make_targets(const ConstraintOptions& options, const Measures& start,
+                                   bool is_two_phase);
+
+/// Material in the units of the case; reduced numbers (`reduced_line_tension`, `rigidity_ratio`,
+/// `saddle_splay_difference`) are resolved with R_c of `area`. Throws ConfigError for a quantity
+/// given twice or out of its range.
+[[nodiscard]] MaterialOptions resolved_material(const MaterialOptions& options, double area);
+
+}  // namespace vesica::model

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "vesica/model/model.hpp"
+#include "vesica/problem/state.hpp"
+
+namespace vesica::problem {
+
+/// Natural units of a case. Tolerances and rates are given in them, so a run does not depend on the
+/// units of length and energy of its case file.
+struct Scales {
+  double length = 1;  ///< R_c (4.2), of the area target or, without one, of the start [length]
+  double energy = 1;  ///< bending rigidity of phase 1 [energy]
+
+  [[nodiscard]] double damping() const { return length * length / energy; }
+  [[nodiscard]] double time() const { return length * length * length * length / energy; }
+  [[nodiscard]] double multiplier() const { return energy / (length * length * length); }
+};
+
+[[nodiscard]] Scales scales_of(const model::Model& model, const State& start);
+
+}  // namespace vesica::problem

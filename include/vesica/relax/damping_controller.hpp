@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/problem/scales.hpp"
+#include "vesica/relax/controller.hpp"
+
+namespace vesica::relax {
+
+/// speed: alpha = gain / ||v_nu||;  ratio: keep ||v_tau|| / ||v_nu|| within [lower_ratio,
+/// upper_ratio] (3.4); paper: the same rule with the constants of the paper;  fixed: alpha =
+/// initial.
+enum class DampingKind { speed, ratio, paper, fixed };
+
+/// Tangential damping alpha of (3.4). alpha is measured in R_c^2/k_kappa. What is not given takes
+/// the default of its kind (`resolved_damping`).
+struct DampingOptions {
+  DampingKind kind = DampingKind::speed;
+  std::optional<double> initial;
+  std::optional<double> minimum;
+  std::optional<double> maximum;
+  std::optional<double> factor;
+  double gain = 5;
+  double lower_ratio = 0.1;
+  double upper_ratio = 0.5;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(
+        Field{
+            "kind", "-",
+            "speed (alpha = gain/||v_nu||), ratio (3.4), paper (3.4 with its constants) or fixed"},
+        self.kind);
+    visit(Field{"initial", "R_c^2/k", "start value; default 1 (paper: 1e-4)", Rule::positive},
+          self.initial);
+    visit(Field{"minimum", "R_c^2/k", "lower limit; default 1e-2 (paper: 1e-6)", Rule::positive},
+          self.minimum);
+    visit(Field{"maximum", "R_c^2/k", "upper limit; default 10 (paper: 1e4)", Rule::positive},
+          self.maximum);
+    visit(
+        Field{"factor", "-", "largest change in a step; default 2 (paper: 10)", Rule::at_least_one},
+        self.factor);
+    visit(Field{"gain", "-", "K of kind speed", Rule::positive}, self.gain);
+    visit(
+        Field{"lower_ratio", "-", "c_v of (3.4): below it the damping is lowered", Rule::positive},
+        self.lower_ratio);
+    visit(Field{"upper_ratio", "-", "C_v of (3.4): above it the damping is raised", Rule::positive},
+          self.upper_ratio);
+  }
+};
+
+/// The options with every default of their kind filled in. Throws ConfigError when minimum >
+/// maximum, initial lies outside of them, or lower_ratio >= upper_ratio.
+[[nodiscard]] DampingOptions resolved_damping(const DampingOptions& options);
+
+/// Chooses alpha between steps from the velocity norms.
+class DampingController final : public Controller {
+ public:
+  /// `scales` of the case give the units in which the options are meant.
+  DampingController(const DampingOptions& options, const problem::Scales& scales);
+  [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
+
+ private:
+  DampingOptions options_;
+  problem::Scales scales_;
+};
+
+}  // namespace vesica::relax
+
+namespace vesica {
+template <>
+struct EnumNames<relax::DampingKind> {
+  static constexpr std::array<std::pair<relax::DampingKind, std::string_view>, 4> names{
+      {{relax::DampingKind::speed, "speed"},
+       {relax::DampingKind::ratio, "ratio"},
+       {relax::DampingKind::paper, "paper"},
+       {relax::DampingKind::fixed, "fixed"}}};
+};
+}  // namespace vesica

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/state.hpp"
+#include "vesica/solve/stepper.hpp"
+
+namespace vesica::relax {
+
+/// What observers and controllers see after an accepted step (and once before the first: step 0).
+struct StepView {
+  const problem::State& state;
+  const solve::StepReport& report;
+  const problem::Diagnostics& diagnostics;
+};
+
+/// Why a run ended. The numbers are not the exit status; `exit_status` in io/verdict.hpp maps them.
+enum class RunStatus {
+  converged,
+  end_time,
+  step_limit,
+  time_limit,
+  stopped,
+  interrupted,
+  numerical_failure
+};
+
+/// Result of relax(): how it ended, and the numbers of the last good state.
+struct Outcome {
+  RunStatus status = RunStatus::converged;
+  std::string reason;  ///< one sentence
+  int signal = 0;      ///< the signal that interrupted the run, 0 for none
+  problem::Diagnostics diagnostics;
+  solve::StepReport report;
+  double smallest_quality = 0;  ///< smallest mesh quality over the run
+  double initial_quality = 0;
+};
+
+/// Watches a run; changes nothing. Derive from it to record or draw.
+class Observer {
+ public:
+  Observer() = default;
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+  virtual ~Observer() = default;
+
+  /// After every accepted step; step 0 is the start.
+  virtual void observe(const StepView& view) = 0;
+  /// Once, after the last step, with the final state. Also after a failure.
+  virtual void finish(const StepView& view, const Outcome& outcome) {
+    (void)view;
+    (void)outcome;
+  }
+};
+
+}  // namespace vesica::relax

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <optional>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/relax/controller.hpp"
+
+namespace vesica::relax {
+
+/// When a run ends.
+struct StopOptions {
+  double normal_velocity = 1e-3;
+  double constraint = 1e-8;
+  double multiplier_change = 1e-3;
+  int rest_steps = 3;
+  int steps_without_newton = 0;
+  double end_time = std::numeric_limits<double>::infinity();
+  int max_steps = 2000;
+  double max_seconds = std::numeric_limits<double>::infinity();
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"normal_velocity", "length/time",
+                "converged below it: ||v_nu|| / R_c, rigid motion removed", Rule::positive},
+          self.normal_velocity);
+    visit(Field{"constraint", "-", "converged below it: relative errors of the constraints",
+                Rule::positive},
+          self.constraint);
+    visit(Field{"multiplier_change", "-",
+                "converged below it: relative change of the multipliers in a step", Rule::positive},
+          self.multiplier_change);
+    visit(Field{"rest_steps", "-", "number of last steps in which the multipliers must be at rest",
+                Rule::at_least_one},
+          self.rest_steps);
+    visit(Field{"steps_without_newton", "-",
+                "number of last steps without a quasi-Newton iteration; method semi-implicit only "
+                "(there 10 unless given, as in 3.4)",
+                Rule::non_negative},
+          self.steps_without_newton);
+    visit(Field{"end_time", "length^4/energy", "stop at this time", Rule::positive}, self.end_time);
+    visit(Field{"max_steps", "-", "stop after this many steps", Rule::at_least_one},
+          self.max_steps);
+    visit(Field{"max_seconds", "s", "stop after this wall-clock time", Rule::positive},
+          self.max_seconds);
+  }
+};
+
+/// The stopping criterion and the limits of a run. A state is an equilibrium when
+///   ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity,
+///   no multiplier changed by more than multiplier_change, relative to the largest, in any of the
+///   last rest_steps, every relative constraint error is below constraint,
+///   and the last steps_without_newton took no Newton iteration (rule of 3.4; IDA always iterates).
+class Stationarity {
+ public:
+  Stationarity(const StopOptions& options, const model::Model& model);
+
+  /// To be called once a step: whether velocity and multipliers are at rest.
+  [[nodiscard]] bool is_at_rest(const StepView& view);
+  [[nodiscard]] bool meets_velocity(const problem::Diagnostics& diagnostics) const;
+  [[nodiscard]] bool meets_constraints(const problem::Diagnostics& diagnostics) const;
+  /// The limit that is reached, if any.
+  [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
+
+ private:
+  [[nodiscard]] bool multipliers_moved(const problem::PerConstraint& multipliers) const;
+
+  StopOptions options_;
+  const model::Model& model_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<problem::PerConstraint> last_multipliers_;
+  int steps_at_rest_ = 0;
+  long last_newton_ = 0;
+  int steps_without_newton_ = 0;
+};
+
+}  // namespace vesica::relax

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/linalg/direct_solver.hpp"
+#include "vesica/solve/time_step.hpp"
+
+namespace vesica::solve {
+
+enum class Method { ida, semi_implicit };
+enum class Scheme { paper };
+enum class NewtonMode { krylov, direct };
+
+/// How the equations are solved. Times are in [length^4/energy]: the mobility of the gradient flow
+/// is 1.
+struct SolverOptions {
+  Method method = Method::ida;
+  Scheme scheme = Scheme::paper;
+  double rtol = 1e-3;
+  double atol = 1e-3;
+  double atol_multipliers = 10;
+  int max_order = 5;
+  double initial_step = 0;
+  double max_step = std::numeric_limits<double>::infinity();
+  double constraint_rate = 100;
+  TimeStep time_step{};
+  bool tangential_fields = true;
+  NewtonMode newton = NewtonMode::krylov;
+  linalg::DirectSolverKind linear_solver = linalg::default_direct_solver;
+  bool final_constraint_solve = true;
+  int threads = 0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"method", "-", "integrator: ida (adaptive) or semi-implicit (the paper's own)"},
+          self.method);
+    visit(Field{"scheme", "-", "equations: paper (weak form of Problem 3.1)"}, self.scheme);
+    visit(Field{"rtol", "-", "relative tolerance of the error test in time", Rule::positive},
+          self.rtol);
+    visit(
+        Field{"atol", "-", "absolute tolerance; x in R_c, kappa in 1/R_c, c in 1", Rule::positive},
+        self.atol);
+    visit(Field{"atol_multipliers", "energy/length^3",
+                "absolute tolerance of the multipliers in Newton's iteration", Rule::positive},
+          self.atol_multipliers);
+    visit(Field{"max_order", "-", "largest order of the BDF method, 1 to 5", Rule::at_least_one},
+          self.max_order);
+    visit(Field{"initial_step", "length^4/energy", "first step; 0: chosen by IDA",
+                Rule::non_negative},
+          self.initial_step);
+    visit(Field{"max_step", "length^4/energy", "largest step", Rule::positive}, self.max_step);
+    visit(Field{"constraint_rate", "k/R_c^4",
+                "gamma of d/dt C + gamma C = 0, pulls constraints back", Rule::positive},
+          self.constraint_rate);
+    visit(Field{"time_step", "length^4/energy",
+                "semi-implicit: fixed step, a number or \"(eps/30)^2\" with eps = interface_width",
+                Rule::positive},
+          self.time_step);
+    visit(Field{"tangential_fields", "-",
+                "semi-implicit: keep the fields beta_1, beta_2 of (3.4); false: eliminate them"},
+          self.tangential_fields);
+    visit(Field{"newton", "-", "krylov (GMRES, factors as preconditioner) or direct"}, self.newton);
+    visit(Field{"linear_solver", "-", "sparse factorisation: umfpack or klu"}, self.linear_solver);
+    visit(Field{"final_constraint_solve", "-", "take the constraints to round-off at the end"},
+          self.final_constraint_solve);
+    visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
+          self.threads);
+  }
+};
+
+}  // namespace vesica::solve
+
+namespace vesica {
+template <>
+struct EnumNames<solve::Method> {
+  static constexpr std::array<std::pair<solve::Method, std::string_view>, 2> names{
+      {{solve::Method::ida, "ida"}, {solve::Method::semi_implicit, "semi-implicit"}}};
+};
+template <>
+struct EnumNames<solve::Scheme> {
+  static constexpr std::array<std::pair<solve::Scheme, std::string_view>, 1> names{
+      {{solve::Scheme::paper, "paper"}}};
+};
+template <>
+struct EnumNames<solve::NewtonMode> {
+  static constexpr std::array<std::pair<solve::NewtonMode, std::string_view>, 2> names{
+      {{solve::NewtonMode::krylov, "krylov"}, {solve::NewtonMode::direct, "direct"}}};
+};
+}  // namespace vesica

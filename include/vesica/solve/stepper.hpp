@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+
+#include "vesica/problem/state.hpp"
+
+namespace vesica::solve {
+
+/// Work done since the stepper was made.
+struct SolverCounts {
+  long steps = 0;
+  long newton = 0;          ///< nonlinear (Newton) iterations
+  long krylov = 0;          ///< linear (GMRES) iterations
+  long residuals = 0;       ///< residual evaluations, those of difference quotients included
+  long jacobians = 0;       ///< Jacobian assemblies
+  long factorisations = 0;  ///< numerical factorisations
+  long failures = 0;        ///< failed error tests and failed Newton iterations together
+};
+
+/// Wall-clock seconds by part.
+struct SolverSeconds {
+  double total = 0;
+  double residual = 0;
+  double jacobian = 0;
+  double factorisation = 0;
+  double solve = 0;
+};
+
+enum class StepStatus { accepted, failed };
+
+/// What one step did. A failed step leaves the state at the last accepted one and says why.
+struct StepReport {
+  StepStatus status = StepStatus::accepted;
+  double time = 0;       ///< time reached [time]
+  double step_size = 0;  ///< size of this step [time]
+  int order = 0;         ///< order of the method used
+  SolverCounts counts;   ///< totals after the step
+  SolverSeconds seconds;
+  std::string reason;  ///< for a failed step: call, code by name, and what to try
+};
+
+/// Advances a State that it owns. One of the four abstract classes of the library.
+class Stepper {
+ public:
+  Stepper() = default;
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+  virtual ~Stepper() = default;
+
+  [[nodiscard]] virtual const problem::State& state() const = 0;
+  /// One step, not beyond `end_time`. Numerical trouble is a status, not an exception.
+  virtual StepReport step(double end_time) = 0;
+  /// Takes the constraints of an almost resting state to round-off; optional for a method.
+  virtual StepReport finish() = 0;
+  /// Tangential damping alpha of equation (b) from the next step on [length^2/energy].
+  virtual void set_damping(double alpha) = 0;
+};
+
+}  // namespace vesica::solve

@@ -1,0 +1,132 @@
+#include "vesica/fem/recovery.hpp"
+
+#include <vector>
+
+#include "mass_matrix.hpp"
+#include "vesica/core/parallel.hpp"
+#include "vesica/fem/quadrature.hpp"
+#include "vesica/fem/surface_element.hpp"
+
+namespace vesica::fem {
+
+namespace {
+
+using mesh::QuadraticTriangle;
+
+constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Adds up local vectors of three components a node, stored as (T, 6, 3).
+NodalTriple gather(const NodeGraph& graph, const std::vector<double>& local, int threads) {
+  NodalTriple result(graph.num_nodes(), 3);
+  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
+    for (int node = begin; node < end; ++node) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (const auto code : graph.incidences(node)) sum += local[at(code) * 3 + k];
+        result(node, static_cast<Eigen::Index>(k)) = sum;
+      }
+    }
+  });
+  return result;
+}
+
+TangentFrame<double> frame_at(const mesh::Positions& positions, const QuadraticTriangle& triangle,
+                              const ShapeValues& shape) {
+  return tangent_frame(to_vec3(combine<3>(positions, triangle, shape.du)),
+                       to_vec3(combine<3>(positions, triangle, shape.dv)));
+}
+
+/// Element mass matrices (T, 36) and the right-hand sides int grad phi_i of kappa_hat (T, 6, 3).
+struct FirstPass {
+  std::vector<double> mass;
+  std::vector<double> gradients;
+};
+
+FirstPass first_pass(const mesh::Triangulation& triangulation, const mesh::Positions& positions,
+                     int threads) {
+  const auto count = at(triangulation.num_triangles());
+  FirstPass pass{std::vector<double>(count * 36), std::vector<double>(count * 18)};
+  parallel_for(triangulation.num_triangles(), threads, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto& triangle = triangulation.triangles()[at(t)];
+      double* mass = &pass.mass[at(t) * 36];
+      double* gradients = &pass.gradients[at(t) * 18];
+      for (const auto& point : triangle_rule()) {
+        const auto frame = frame_at(positions, triangle, point.shape);
+        const double weight = point.weight * frame.area_element;
+        for (std::size_t i = 0; i < 6; ++i) {
+          const auto g =
+              surface_gradient(frame, weight * point.shape.du[i], weight * point.shape.dv[i]);
+          gradients[3 * i] += g.x;
+          gradients[3 * i + 1] += g.y;
+          gradients[3 * i + 2] += g.z;
+          for (std::size_t j = 0; j < 6; ++j)
+            mass[6 * i + j] += weight * point.shape.value[i] * point.shape.value[j];
+        }
+      }
+    }
+  });
+  return pass;
+}
+
+/// Right-hand sides of Q_h, symmetric parts: diagonal components (T, 6, 3) and off-diagonal ones
+/// (T, 6, 3).
+struct SecondPass {
+  std::vector<double> diagonal;
+  std::vector<double> off_diagonal;
+};
+
+SecondPass second_pass(const mesh::Triangulation& triangulation, const mesh::Positions& positions,
+                       const NodalTriple& kappa_hat, int threads) {
+  const auto count = at(triangulation.num_triangles());
+  SecondPass pass{std::vector<double>(count * 18), std::vector<double>(count * 18)};
+  parallel_for(triangulation.num_triangles(), threads, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto& triangle = triangulation.triangles()[at(t)];
+      double* diagonal = &pass.diagonal[at(t) * 18];
+      double* off_diagonal = &pass.off_diagonal[at(t) * 18];
+      for (const auto& point : triangle_rule()) {
+        const auto frame = frame_at(positions, triangle, point.shape);
+        const auto kappa = to_vec3(combine<3>(kappa_hat, triangle, point.shape.value));
+        const double weight = point.weight * frame.area_element;
+        const auto& n = frame.normal;
+        for (std::size_t i = 0; i < 6; ++i) {
+          // z = kappa_hat phi_i - grad phi_i;  Q_ab phi_i integrates nu_a z_b
+          const auto gradient = surface_gradient(frame, point.shape.du[i], point.shape.dv[i]);
+          const auto z = weight * (point.shape.value[i] * kappa - gradient);
+          diagonal[3 * i] += n.x * z.x;
+          diagonal[3 * i + 1] += n.y * z.y;
+          diagonal[3 * i + 2] += n.z * z.z;
+          off_diagonal[3 * i] += 0.5 * (n.x * z.y + n.y * z.x);
+          off_diagonal[3 * i + 1] += 0.5 * (n.y * z.z + n.z * z.y);
+          off_diagonal[3 * i + 2] += 0.5 * (n.x * z.z + n.z * z.x);
+        }
+      }
+    }
+  });
+  return pass;
+}
+
+}  // namespace
+
+NodalShapeOperator recover_shape_operator(const mesh::Triangulation& triangulation,
+                                          const NodeGraph& graph, const mesh::Positions& positions,
+                                          int threads) {
+  const FirstPass first = first_pass(triangulation, positions, threads);
+  const MassMatrix mass = gather_mass_matrix(graph, first.mass, threads);
+  const auto gradients = gather(graph, first.gradients, threads);
+  const auto kappa_hat = solve_mass_matrix(mass, gradients);
+  const SecondPass second = second_pass(triangulation, positions, kappa_hat, threads);
+  const auto diagonal = gather(graph, second.diagonal, threads);
+  const auto off_diagonal = gather(graph, second.off_diagonal, threads);
+  NodalShapeOperator result(graph.num_nodes(), 6);
+  parallel_for(2, threads, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part) {
+      if (part == 0) result.leftCols<3>() = solve_mass_matrix(mass, diagonal);
+      if (part == 1) result.rightCols<3>() = solve_mass_matrix(mass, off_diagonal);
+    }
+  });
+  return result;
+}
+
+}  // namespace vesica::fem

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vesica::io {
+
+/// Writes one JSON object, two spaces an indentation level. Numbers are the shortest text that
+/// reads back as the same double; NaN, infinities and absent values become null.
+class JsonWriter {
+ public:
+  JsonWriter() = default;
+
+  void begin_object(std::string_view key);
+  void end_object();
+  void add(std::string_view key, double value);
+  void add(std::string_view key, std::optional<double> value);
+  void add(std::string_view key, long value);
+  void add(std::string_view key, int value) { add(key, static_cast<long>(value)); }
+  void add(std::string_view key, std::optional<int> value);
+  void add(std::string_view key, std::string_view value);
+  /// The whole object; every begun object must have ended.
+  [[nodiscard]] std::string text() const { return "{" + body_ + "\n}\n"; }
+
+ private:
+  void add_raw(std::string_view key, std::string_view value);
+
+  std::string body_;
+  int depth_ = 1;
+  bool needs_comma_ = false;
+};
+
+}  // namespace vesica::io

@@ -1,0 +1,82 @@
+#include "vesica/io/run_folder.hpp"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "vesica/core/error.hpp"
+
+namespace vesica::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> files_of_a_run{"trajectory.h5", "trajectory.part.h5",
+                                                         "verdict.json", "case.toml"};
+
+std::string last_system_error() { return std::generic_category().message(errno); }
+
+/// The folder itself, or the nearest one above it that exists.
+fs::path nearest_existing(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path existing = fs::absolute(folder);
+  while (!fs::exists(existing, ignored) && existing.has_relative_path())
+    existing = existing.parent_path();
+  return existing;
+}
+
+}  // namespace
+
+void check_run_folder(const fs::path& folder, const fs::path& case_file, bool overwrite) {
+  std::error_code ignored;
+  const fs::path existing = nearest_existing(folder);
+  if (!fs::is_directory(existing, ignored)) {
+    throw IoError(
+        fmt::format("{}: cannot be made, {} is not a folder", folder.string(), existing.string()));
+  }
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    throw IoError(fmt::format("{}: not writable ({})", existing.string(), last_system_error()));
+  }
+  if (fs::equivalent(folder / "case.toml", case_file, ignored)) {
+    throw ConfigError(fmt::format("{}: holds the case file itself; choose another output folder",
+                                  folder.string()));
+  }
+  if (overwrite) return;
+  for (const std::string_view name : files_of_a_run) {
+    if (fs::exists(folder / name, ignored)) {
+      throw ConfigError(fmt::format(
+          "{}: already holds a run ({}); choose another output folder or give --overwrite",
+          folder.string(), name));
+    }
+  }
+}
+
+void create_run_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw IoError(fmt::format("{}: cannot be made ({})", folder.string(), error.message()));
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+  const fs::path temporary = path.string() + ".tmp";
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) {
+    const std::string reason = last_system_error();
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw IoError(fmt::format("{}: cannot be written ({})", path.string(), reason));
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error)
+    throw IoError(fmt::format("{}: cannot be written ({})", path.string(), error.message()));
+}
+
+}  // namespace vesica::io

@@ -1,0 +1,168 @@
+#include "io/trajectory_file.hpp"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "io/option_values.hpp"
+#include "io/time_series.hpp"
+#include "vesica/core/version.hpp"
+#include "vesica/io/verdict.hpp"
+#include "vesica/linalg/library_versions.hpp"
+#include "vesica/problem/diagnostics.hpp"
+#include "vesica/solve/library_versions.hpp"
+
+namespace vesica::io {
+namespace {
+
+#if defined(__clang__)
+constexpr std::string_view compiler = "Clang " __clang_version__;
+#else
+constexpr std::string_view compiler = "GCC " __VERSION__;
+#endif
+
+std::string numbered(std::string_view group, std::size_t index) {
+  return fmt::format("/{}/{:06}", group, index);
+}
+
+std::span<const double> values_of(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+std::span<const double> values_of(const mesh::Positions& positions) {
+  return {positions.data(), static_cast<std::size_t>(positions.size())};
+}
+
+/// One attribute for every option: numbers and flags as such, everything else as in a case file.
+class AttributeWriter {
+ public:
+  AttributeWriter(hdf5::WritableFile& file, std::string group)
+      : file_(file), group_(std::move(group)) {}
+
+  template <class T>
+  void operator()(const Field& field, const T& value) {
+    const std::string name(field.name);
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::string>) {
+      file_.set_attribute(group_, name, value);
+    } else if constexpr (std::is_integral_v<T>) {
+      file_.set_attribute(group_, name, static_cast<std::int64_t>(value));
+    } else if constexpr (std::is_enum_v<T>) {
+      file_.set_attribute(group_, name, std::string(name_of(value)));
+    } else {
+      file_.set_attribute(group_, name, toml_text(value));
+    }
+  }
+  template <class T>
+  void operator()(const Field& field, const std::optional<T>& value) {
+    if (value) (*this)(field, *value);
+  }
+
+ private:
+  hdf5::WritableFile& file_;
+  std::string group_;
+};
+
+}  // namespace
+
+TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
+                               const model::Model& model)
+    : file_(path), model_(model) {
+  for (const char* group : {"/meshes", "/frames", "/series"}) file_.make_group(group);
+  write_configuration(config);
+  write_versions();
+}
+
+void TrajectoryFile::write_configuration(const RunConfig& config) {
+  const std::string root = "/configuration";
+  file_.make_group(root);
+  file_.set_attribute(root, "title", config.title);
+  file_.write_text(root + "/toml", to_toml(config));
+  RunConfig::tables(config,
+                    [this, &root]<class Options>(const Table& table, const Options& options) {
+                      const std::string group = fmt::format("{}/{}", root, table.name);
+                      if constexpr (requires { options.has_value(); }) {
+                        if (!options) return;
+                        file_.make_group(group);
+                        Options::value_type::fields(*options, AttributeWriter(file_, group));
+                      } else {
+                        file_.make_group(group);
+                        Options::fields(options, AttributeWriter(file_, group));
+                      }
+                    });
+}
+
+void TrajectoryFile::write_versions() {
+  const std::string group = "/versions";
+  file_.make_group(group);
+  file_.set_attribute(group, "vesica", std::string(version()));
+  file_.set_attribute(group, "sundials", solve::sundials_version());
+  file_.set_attribute(group, "suitesparse", linalg::suitesparse_versions());
+  file_.set_attribute(group, "hdf5",
+                      fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE));
+  file_.set_attribute(
+      group, "eigen",
+      fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+  file_.set_attribute(group, "compiler", std::string(compiler));
+}
+
+void TrajectoryFile::write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation) {
+  const std::string mesh = numbered("meshes", meshes_.size());
+  const std::span<const mesh::QuadraticTriangle> triangles = triangulation->triangles();
+  file_.make_group(mesh);
+  file_.write(mesh + "/triangles", std::span(triangles.front().data(), 6 * triangles.size()), 6);
+  meshes_.push_back(mesh);
+  last_triangulation_ = std::move(triangulation);
+}
+
+void TrajectoryFile::add_row(const relax::StepView& view) { rows_.push_back(series_row(view)); }
+
+void TrajectoryFile::add_frame(const relax::StepView& view) {
+  const problem::State& state = view.state;
+  if (state.triangulation != last_triangulation_) write_mesh(state.triangulation);
+  const std::string group = numbered("frames", frames_.size());
+  const problem::NodalFields fields = problem::nodal_fields(model_, state);
+  file_.make_group(group);
+  file_.set_attribute(group, "time", state.time);
+  file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
+  file_.set_attribute(group, "mesh", meshes_.back());
+  file_.set_attribute(group, "damping", state.damping);
+  const problem::PerConstraint& multipliers = state.values.multipliers;
+  if (multipliers.volume) file_.set_attribute(group, "multiplier_volume", *multipliers.volume);
+  if (multipliers.area) file_.set_attribute(group, "multiplier_area", *multipliers.area);
+  if (multipliers.phase) file_.set_attribute(group, "multiplier_phase", *multipliers.phase);
+  file_.link(group + "/mesh", meshes_.back());
+  file_.write(group + "/positions", values_of(state.values.positions), 3);
+  file_.write(group + "/velocity", values_of(state.rates.positions), 3);
+  file_.write(group + "/normals", values_of(fields.normals), 3);
+  file_.write(group + "/mean_curvature", values_of(state.values.mean_curvature));
+  if (state.is_two_phase())
+    file_.write(group + "/order_parameter", values_of(state.values.order_parameter));
+  file_.write(group + "/normal_velocity", values_of(fields.normal_velocity));
+  file_.write(group + "/bending_energy_density", values_of(fields.bending_energy_density));
+  frames_.push_back({state.time, group, meshes_.back(), state.triangulation->num_nodes(),
+                     state.triangulation->num_triangles(), state.is_two_phase()});
+}
+
+void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome) {
+  const std::string group = "/outcome";
+  file_.make_group(group);
+  file_.set_attribute(group, "status", std::string(status_name(outcome.status)));
+  file_.set_attribute(group, "reason", outcome.reason);
+  file_.set_attribute(group, "exit_status", static_cast<std::int64_t>(exit_status(outcome)));
+  file_.set_attribute(group, "time", view.state.time);
+  file_.set_attribute(group, "steps", static_cast<std::int64_t>(outcome.report.counts.steps));
+  file_.set_attribute(group, "quality_initial", outcome.initial_quality);
+  file_.set_attribute(group, "quality_smallest", outcome.smallest_quality);
+}
+
+void TrajectoryFile::flush() {
+  const std::vector<std::string_view> names = series_names();
+  for (std::size_t column = 0; column < names.size() && !rows_.empty(); ++column) {
+    std::vector<double> values;
+    for (const std::vector<double>& row : rows_) values.push_back(row[column]);
+    file_.append(fmt::format("/series/{}", names[column]), values);
+  }
+  rows_.clear();
+  file_.flush();
+}
+
+}  // namespace vesica::io

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/hdf5.hpp"
+#include "io/xdmf.hpp"
+#include "vesica/io/config.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/relax/observer.hpp"
+
+namespace vesica::io {
+
+/// The groups of `trajectory.h5` (docs/output.md) and how they grow.
+class TrajectoryFile {
+ public:
+  /// Makes the file with `/configuration` and `/versions`.
+  TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
+                 const model::Model& model);
+
+  /// Kept until the next flush.
+  void add_row(const relax::StepView& view);
+  /// A frame, and its mesh when the connectivity is new.
+  void add_frame(const relax::StepView& view);
+  void add_outcome(const relax::StepView& view, const relax::Outcome& outcome);
+  /// Rows and frames reach the disk.
+  void flush();
+  void close() { file_.close(); }
+  [[nodiscard]] const std::vector<XdmfFrame>& frames() const { return frames_; }
+
+ private:
+  void write_configuration(const RunConfig& config);
+  void write_versions();
+  void write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation);
+
+  hdf5::WritableFile file_;
+  model::Model model_;
+  std::vector<std::vector<double>> rows_;
+  std::vector<XdmfFrame> frames_;
+  std::vector<std::string> meshes_;
+  std::shared_ptr<const mesh::Triangulation> last_triangulation_;
+};
+
+}  // namespace vesica::io

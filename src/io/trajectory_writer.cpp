@@ -1,0 +1,120 @@
+#include "vesica/io/trajectory_writer.hpp"
+
+#include <fmt/format.h>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "io/trajectory_file.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/io/run_folder.hpp"
+#include "vesica/problem/diagnostics.hpp"
+
+namespace vesica::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view part_name = "trajectory.part.h5";
+constexpr std::string_view final_name = "trajectory.h5";
+constexpr std::string_view part_xdmf_name = "trajectory.part.xdmf";
+constexpr std::string_view final_xdmf_name = "trajectory.xdmf";
+
+}  // namespace
+
+class TrajectoryWriter::Writer {
+ public:
+  Writer(fs::path folder, const RunConfig& config, const model::Model& model)
+      : folder_(std::move(folder)),
+        output_(config.output),
+        file_(folder_ / part_name, config, model) {}
+
+  void observe(const relax::StepView& view) {
+    file_.add_row(view);
+    last_positions_ = view.state.values.positions;
+    const long step = view.report.counts.steps;
+    if (!file_.frames().empty() && step % output_.every_steps != 0) return;
+    file_.add_frame(view);
+    file_.flush();
+    if (output_.paraview)
+      write_text_file(folder_ / part_xdmf_name, xdmf_text(part_name, file_.frames()));
+    last_frame_step_ = step;
+  }
+
+  void finish(const relax::StepView& view, const relax::Outcome& outcome) {
+    const mesh::Positions& positions = view.state.values.positions;
+    const bool was_moved =
+        last_positions_.rows() != positions.rows() || last_positions_ != positions;
+    if (was_moved) file_.add_row(view);
+    if (was_moved || view.report.counts.steps != last_frame_step_) file_.add_frame(view);
+    file_.add_outcome(view, outcome);
+    file_.flush();
+    file_.close();
+    publish();
+  }
+
+ private:
+  /// Puts the finished files in place of those of an older run.
+  void publish() const {
+    std::error_code error;
+    fs::rename(folder_ / part_name, folder_ / final_name, error);
+    if (error) {
+      throw IoError(fmt::format("{}: cannot be written ({})", (folder_ / final_name).string(),
+                                error.message()));
+    }
+    if (output_.paraview) {
+      write_text_file(folder_ / final_xdmf_name, xdmf_text(final_name, file_.frames()));
+    } else {
+      fs::remove(folder_ / final_xdmf_name, error);
+    }
+    fs::remove(folder_ / part_xdmf_name, error);
+  }
+
+  fs::path folder_;
+  OutputOptions output_;
+  TrajectoryFile file_;
+  mesh::Positions last_positions_;
+  long last_frame_step_ = -1;
+};
+
+TrajectoryWriter::TrajectoryWriter(fs::path folder, const RunConfig& config,
+                                   const model::Model& model)
+    : writer_(std::make_unique<Writer>(std::move(folder), config, model)) {}
+
+TrajectoryWriter::~TrajectoryWriter() = default;
+
+void TrajectoryWriter::observe(const relax::StepView& view) {
+  if (!writer_) return;
+  try {
+    writer_->observe(view);
+  } catch (...) {
+    writer_.reset();
+    throw;
+  }
+}
+
+void TrajectoryWriter::finish(const relax::StepView& view, const relax::Outcome& outcome) {
+  if (!writer_) return;
+  const std::unique_ptr<Writer> last = std::move(writer_);
+  last->finish(view, outcome);
+}
+
+relax::Outcome record_failed_start(const RunConfig& config, const Case& vesicle,
+                                   std::string reason) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  relax::Outcome outcome;
+  outcome.status = relax::RunStatus::numerical_failure;
+  outcome.reason = std::move(reason);
+  outcome.diagnostics = problem::measure(vesicle.model, vesicle.start);
+  outcome.diagnostics.energy = {unknown, unknown, std::nullopt};
+  outcome.diagnostics.velocity = {unknown, unknown, unknown};
+  outcome.report.status = solve::StepStatus::failed;
+  outcome.initial_quality = outcome.diagnostics.quality;
+  outcome.smallest_quality = outcome.diagnostics.quality;
+  create_run_folder(config.output.directory);
+  TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
+  trajectory.finish({vesicle.start, outcome.report, outcome.diagnostics}, outcome);
+  return outcome;
+}
+
+}  // namespace vesica::io

@@ -1,0 +1,167 @@
+#include "vesica/io/verdict.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <utility>
+
+#include "io/json_writer.hpp"
+#include "vesica/io/run_folder.hpp"
+
+namespace vesica::io {
+namespace {
+
+void add_constraints(JsonWriter& json, std::string_view key, const problem::PerConstraint& values) {
+  json.begin_object(key);
+  json.add("volume", values.volume);
+  json.add("area", values.area);
+  json.add("phase", values.phase);
+  json.end_object();
+}
+
+void add_energy(JsonWriter& json, const problem::EnergyParts& energy) {
+  json.begin_object("energy");
+  json.add("total", energy.total());
+  json.add("bending", energy.bending);
+  json.add("gaussian", energy.gaussian);
+  json.add("line", energy.line);
+  json.end_object();
+}
+
+void add_velocities(JsonWriter& json, const Verdict& verdict) {
+  const problem::VelocityNorms& velocity = verdict.outcome.diagnostics.velocity;
+  const double radius = verdict.shape.characteristic_radius;
+  const double rigid_squared =
+      velocity.normal * velocity.normal - velocity.normal_rigid_free * velocity.normal_rigid_free;
+  json.add("normal_velocity", velocity.normal_rigid_free / radius);
+  json.add("normal_velocity_plain", velocity.normal / radius);
+  json.add("drift", rigid_squared < 0 ? 0 : std::sqrt(rigid_squared) / radius);
+  json.add("tangential_velocity", velocity.tangential / radius);
+}
+
+void add_mesh(JsonWriter& json, const Verdict& verdict) {
+  json.begin_object("mesh");
+  json.add("nodes", verdict.num_nodes);
+  json.add("triangles", verdict.num_triangles);
+  json.add("quality", verdict.outcome.diagnostics.quality);
+  json.add("quality_initial", verdict.outcome.initial_quality);
+  json.add("quality_smallest", verdict.outcome.smallest_quality);
+  json.add("adaptions", 0);
+  json.add("remeshings", 0);
+  json.end_object();
+}
+
+void add_shape(JsonWriter& json, const Verdict& verdict) {
+  const problem::ShapeNumbers& shape = verdict.shape;
+  json.begin_object("shape");
+  json.add("volume", verdict.outcome.diagnostics.volume);
+  json.add("area", verdict.outcome.diagnostics.area);
+  json.add("phase_difference", verdict.outcome.diagnostics.phase_difference);
+  json.add("characteristic_radius", shape.characteristic_radius);
+  json.add("reduced_volume", shape.reduced_volume);
+  json.add("phase_fraction", shape.phase_fraction);
+  json.add("reduced_line_tension", shape.reduced_line_tension);
+  json.add("rigidity_ratio", shape.rigidity_ratio);
+  json.add("saddle_splay_difference", shape.saddle_splay_difference);
+  json.add("neck_radius", shape.neck_radius);
+  json.add("length", shape.length);
+  json.end_object();
+  json.begin_object("domains");
+  json.add("phase_1", shape.domains_1);
+  json.add("phase_2", shape.domains_2);
+  json.end_object();
+}
+
+void add_work(JsonWriter& json, const solve::StepReport& report) {
+  json.begin_object("counts");
+  json.add("steps", report.counts.steps);
+  json.add("newton", report.counts.newton);
+  json.add("krylov", report.counts.krylov);
+  json.add("residuals", report.counts.residuals);
+  json.add("jacobians", report.counts.jacobians);
+  json.add("factorisations", report.counts.factorisations);
+  json.add("failures", report.counts.failures);
+  json.end_object();
+  json.begin_object("seconds");
+  json.add("total", report.seconds.total);
+  json.add("residual", report.seconds.residual);
+  json.add("jacobian", report.seconds.jacobian);
+  json.add("factorisation", report.seconds.factorisation);
+  json.add("solve", report.seconds.solve);
+  json.end_object();
+}
+
+}  // namespace
+
+Verdict make_verdict(relax::Outcome outcome, std::string_view method, const model::Model& model,
+                     const problem::State& state) {
+  Verdict verdict;
+  verdict.outcome = std::move(outcome);
+  verdict.method = method;
+  verdict.time = state.time;
+  verdict.multipliers = state.values.multipliers;
+  verdict.shape = problem::shape_numbers(model, state);
+  verdict.num_nodes = state.triangulation->num_nodes();
+  verdict.num_triangles = state.triangulation->num_triangles();
+  return verdict;
+}
+
+std::string to_json(const Verdict& verdict) {
+  JsonWriter json;
+  json.add("status", status_name(verdict.outcome.status));
+  json.add("reason", verdict.outcome.reason);
+  json.add("time", verdict.time);
+  json.add("method", verdict.method);
+  add_energy(json, verdict.outcome.diagnostics.energy);
+  add_constraints(json, "multipliers", verdict.multipliers);
+  add_constraints(json, "constraints", verdict.outcome.diagnostics.constraint_errors);
+  add_velocities(json, verdict);
+  add_mesh(json, verdict);
+  add_shape(json, verdict);
+  add_work(json, verdict.outcome.report);
+  return json.text();
+}
+
+void write_verdict(const RunConfig& config, const Verdict& verdict) {
+  const std::filesystem::path folder = config.output.directory;
+  write_text_file(folder / "case.toml", to_toml(config));
+  write_text_file(folder / "verdict.json", to_json(verdict));
+}
+
+std::string_view status_name(relax::RunStatus status) {
+  switch (status) {
+    case relax::RunStatus::converged:
+      return "converged";
+    case relax::RunStatus::end_time:
+    case relax::RunStatus::time_limit:
+      return "time limit";
+    case relax::RunStatus::step_limit:
+      return "step limit";
+    case relax::RunStatus::stopped:
+      return "stopped";
+    case relax::RunStatus::interrupted:
+      return "interrupted";
+    case relax::RunStatus::numerical_failure:
+      break;
+  }
+  return "numerical failure";
+}
+
+int exit_status(const relax::Outcome& outcome) {
+  switch (outcome.status) {
+    case relax::RunStatus::converged:
+      return 0;
+    case relax::RunStatus::end_time:
+    case relax::RunStatus::time_limit:
+    case relax::RunStatus::step_limit:
+    case relax::RunStatus::stopped:
+      return 1;
+    case relax::RunStatus::interrupted:
+      return 128 + (outcome.signal == 0 ? SIGINT : outcome.signal);
+    case relax::RunStatus::numerical_failure:
+      break;
+  }
+  return 3;
+}
+
+}  // namespace vesica::io

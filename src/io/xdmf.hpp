@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vesica::io {
+
+/// A frame of the HDF5 file, as ParaView has to know it.
+struct XdmfFrame {
+  double time = 0;
+  std::string group;  ///< "/frames/000000"
+  std::string mesh;   ///< "/meshes/000000"
+  std::int64_t num_nodes = 0;
+  std::int64_t num_triangles = 0;
+  bool is_two_phase = false;
+};
+
+/// XDMF text: a temporal collection of quadratic triangles whose arrays stand in `hdf5_name`, a
+/// file in the same folder.
+[[nodiscard]] std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> frames);
+
+}  // namespace vesica::io

@@ -1,0 +1,65 @@
+#include "vesica/linalg/bordered_solver.hpp"
+
+#include <span>
+
+#include "vesica/core/error.hpp"
+
+namespace vesica::linalg {
+
+namespace {
+
+std::span<const double> view(const Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+std::span<double> view(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
+}  // namespace
+
+Eigen::VectorXd BorderedMatrix::multiply(const Eigen::VectorXd& x) const {
+  const auto n = columns.rows();
+  const auto m = columns.cols();
+  const Eigen::VectorXd head = x.head(n);
+  Eigen::VectorXd product(n);
+  block.multiply(view(head), view(product));
+  Eigen::VectorXd result(n + m);
+  result.head(n) = product + columns * x.tail(m);
+  result.tail(m) = rows * head;
+  return result;
+}
+
+BorderedSolver::BorderedSolver(DirectSolverKind kind, const BorderedMatrix& matrix, int block_size)
+    : direct_(make_direct_solver(kind, matrix.block, block_size)) {}
+
+void BorderedSolver::factorise(const BorderedMatrix& matrix) {
+  direct_->factorise(matrix.block);
+  rows_ = matrix.rows;
+  solved_columns_.resize(matrix.columns.rows(), matrix.columns.cols());
+  for (Eigen::Index k = 0; k < matrix.columns.cols(); ++k) {
+    solved_columns_.col(k) = solve_block(matrix.columns.col(k));
+  }
+  schur_.compute(rows_ * solved_columns_);
+  if (!solved_columns_.allFinite() ||
+      (matrix.columns.cols() > 0 && schur_.matrixLU().diagonal().cwiseAbs().minCoeff() == 0)) {
+    throw RecoverableError("bordered matrix: the constraints are not independent");
+  }
+}
+
+Eigen::VectorXd BorderedSolver::solve(const Eigen::VectorXd& b) const {
+  const auto n = solved_columns_.rows();
+  const auto m = solved_columns_.cols();
+  Eigen::VectorXd x(n + m);
+  const Eigen::VectorXd head = solve_block(b.head(n));
+  x.tail(m) = m > 0 ? Eigen::VectorXd(schur_.solve(rows_ * head - b.tail(m))) : Eigen::VectorXd();
+  x.head(n) = head - solved_columns_ * x.tail(m);
+  return x;
+}
+
+Eigen::VectorXd BorderedSolver::solve_block(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd x(b.size());
+  direct_->solve(view(b), view(x));
+  return x;
+}
+
+}  // namespace vesica::linalg

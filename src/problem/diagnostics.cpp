@@ -1,0 +1,198 @@
+#include "vesica/problem/diagnostics.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <tuple>
+
+#include "point_equations.hpp"
+#include "surface_integral.hpp"
+#include "vesica/fem/recovery.hpp"
+#include "vesica/mesh/quality.hpp"
+
+namespace vesica::problem {
+
+namespace {
+
+bool needs_shape_operator(const model::Model& model) {
+  const auto& k_g = model.material.gaussian_rigidity;
+  return k_g.phase_1 != 0 || k_g.phase_2 != 0;
+}
+
+fem::NodalShapeOperator shape_operator_of(const model::Model& model, const State& state) {
+  if (!needs_shape_operator(model))
+    return fem::NodalShapeOperator::Zero(state.triangulation->num_nodes(), 6);
+  const fem::NodeGraph graph(*state.triangulation);
+  return fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
+}
+
+model::SurfacePoint<double> point_of(const State& state,
+                                     const fem::NodalShapeOperator& shape_operator,
+                                     const SurfaceSample& sample) {
+  model::SurfacePoint<double> point;
+  point.position = vector_at(state.values.positions, sample);
+  point.normal = sample.frame.normal;
+  point.mean_curvature = scalar_at(state.values.mean_curvature, sample);
+  point.mean_curvature_gradient = gradient_at(state.values.mean_curvature, sample);
+  const auto q = fem::combine<6>(shape_operator, sample.triangle, sample.shape.value);
+  point.shape_operator = {q[0], q[1], q[2], q[3], q[4], q[5]};
+  point.order_parameter = 1;
+  if (state.is_two_phase()) {
+    point.order_parameter = scalar_at(state.values.order_parameter, sample);
+    point.order_parameter_gradient = gradient_at(state.values.order_parameter, sample);
+  }
+  return point;
+}
+
+/// Integrals of all energies and constrained functionals, in the order of the two lists.
+struct Integrals {
+  std::array<double, std::tuple_size_v<model::Energies>> energies{};
+  std::array<double, model::num_constraints> constraints{};
+};
+
+Integrals integrate(const model::Model& model, const State& state) {
+  const auto shape_operator = shape_operator_of(model, state);
+  Integrals sum;
+  for_each_point(state, [&](const SurfaceSample& sample) {
+    const auto point = point_of(state, shape_operator, sample);
+    std::size_t index = 0;
+    const auto add_energy = [&]<class Energy>(const Energy&) {
+      if (takes_part<Energy>(model))
+        sum.energies[index] += sample.weight * Energy::density(model.material, point);
+      ++index;
+    };
+    std::apply([&](const auto&... energy) { (add_energy(energy), ...); }, model::Energies{});
+    index = 0;
+    const auto add_constraint = [&]<class Constraint>(const Constraint&) {
+      if (takes_part<Constraint>(model))
+        sum.constraints[index] += sample.weight * Constraint::density(point);
+      ++index;
+    };
+    std::apply([&](const auto&... constraint) { (add_constraint(constraint), ...); },
+               model::Constraints{});
+  });
+  return sum;
+}
+
+using RigidModes = Eigen::Matrix<double, 6, 1>;
+
+/// nu and x cross nu: normal velocities of the translations and rotations about `centre`.
+RigidModes rigid_modes(const Vec3<double>& x, const Vec3<double>& centre,
+                       const Vec3<double>& normal) {
+  const auto moment = cross(x - centre, normal);
+  RigidModes modes;
+  modes << normal.x, normal.y, normal.z, moment.x, moment.y, moment.z;
+  return modes;
+}
+
+Vec3<double> centroid(const State& state) {
+  Vec3<double> sum;
+  double area = 0;
+  for_each_point(state, [&](const SurfaceSample& sample) {
+    sum = sum + sample.weight * vector_at(state.values.positions, sample);
+    area += sample.weight;
+  });
+  return (1 / area) * sum;
+}
+
+/// ||v_nu|| and ||v_tau||, and ||v_nu|| after the least-squares rigid motion is removed; modes that
+/// do not move the shape (rotations of a sphere) are left out.
+VelocityNorms velocity_norms(const State& state) {
+  if (state.rates.positions.rows() == 0) return {};
+  const auto centre = centroid(state);
+  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+  RigidModes projection = RigidModes::Zero();
+  double normal_squared = 0;
+  double tangential_squared = 0;
+  for_each_point(state, [&](const SurfaceSample& sample) {
+    const auto velocity = vector_at(state.rates.positions, sample);
+    const double normal = dot(velocity, sample.frame.normal);
+    const auto modes =
+        rigid_modes(vector_at(state.values.positions, sample), centre, sample.frame.normal);
+    gram += sample.weight * modes * modes.transpose();
+    projection += sample.weight * normal * modes;
+    normal_squared += sample.weight * normal * normal;
+    tangential_squared += sample.weight * (dot(velocity, velocity) - normal * normal);
+  });
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
+  RigidModes coefficients = eigen.eigenvectors().transpose() * projection;
+  for (int i = 0; i < 6; ++i) {
+    const double value = eigen.eigenvalues()[i];
+    coefficients[i] = value > 1e-6 * eigen.eigenvalues()[5] ? coefficients[i] / value : 0;
+  }
+  const RigidModes rigid = eigen.eigenvectors() * coefficients;
+  double rest_squared = 0;
+  for_each_point(state, [&](const SurfaceSample& sample) {
+    const double normal = dot(vector_at(state.rates.positions, sample), sample.frame.normal);
+    const auto modes =
+        rigid_modes(vector_at(state.values.positions, sample), centre, sample.frame.normal);
+    const double rest = normal - modes.dot(rigid);
+    rest_squared += sample.weight * rest * rest;
+  });
+  return {std::sqrt(normal_squared), std::sqrt(rest_squared),
+          std::sqrt(std::max(0.0, tangential_squared))};
+}
+
+std::optional<double> relative_error(const std::optional<model::Ramp>& target, double time,
+                                     double value, double scale) {
+  if (!target) return std::nullopt;
+  return (value - target->value(time)) / scale;
+}
+
+}  // namespace
+
+Diagnostics measure(const model::Model& model, const State& state) {
+  const auto integrals = integrate(model, state);
+  Diagnostics result;
+  result.energy.bending = integrals.energies[0];
+  result.energy.gaussian = integrals.energies[1];
+  if (model.is_two_phase) result.energy.line = integrals.energies[2];
+  result.volume = integrals.constraints[0];
+  result.area = integrals.constraints[1];
+  if (model.is_two_phase) result.phase_difference = integrals.constraints[2];
+  const auto& targets = model.targets;
+  const double time = state.time;
+  if (targets.volume) {
+    result.constraint_errors.volume =
+        relative_error(targets.volume, time, result.volume, std::abs(targets.volume->value(time)));
+  }
+  result.constraint_errors.area =
+      relative_error(targets.area, time, result.area, targets.area ? targets.area->value(time) : 1);
+  if (model.is_two_phase) {
+    result.constraint_errors.phase =
+        relative_error(targets.phase_difference, time, *result.phase_difference, result.area);
+  }
+  result.velocity = velocity_norms(state);
+  result.quality = mesh::quality(*state.triangulation, state.values.positions);
+  return result;
+}
+
+NodalFields nodal_fields(const model::Model& model, const State& state) {
+  const auto n = state.triangulation->num_nodes();
+  NodalFields fields;
+  fields.normals = mesh::Positions::Zero(n, 3);
+  for_each_point(state, [&](const SurfaceSample& sample) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      // the constant part of the test function: corner and mid-edge functions alike count with
+      // their modulus
+      const double weight = sample.weight * sample.shape.value[i] * sample.shape.value[i];
+      const auto& normal = sample.frame.normal;
+      fields.normals.row(sample.triangle[i]) +=
+          weight * Eigen::RowVector3d(normal.x, normal.y, normal.z);
+    }
+  });
+  fields.normals.rowwise().normalize();
+  fields.normal_velocity = Eigen::VectorXd::Zero(n);
+  if (state.rates.positions.rows() == n) {
+    fields.normal_velocity = state.rates.positions.cwiseProduct(fields.normals).rowwise().sum();
+  }
+  fields.bending_energy_density.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    model::SurfacePoint<double> point;
+    point.mean_curvature = state.values.mean_curvature[i];
+    point.order_parameter = state.is_two_phase() ? state.values.order_parameter[i] : 1;
+    fields.bending_energy_density[i] = model::BendingEnergy::density(model.material, point);
+  }
+  return fields;
+}
+
+}  // namespace vesica::problem

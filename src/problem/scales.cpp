@@ -1,0 +1,20 @@
+#include "vesica/problem/scales.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "surface_integral.hpp"
+
+namespace vesica::problem {
+
+Scales scales_of(const model::Model& model, const State& start) {
+  double area = 0;
+  if (model.targets.area) {
+    area = model.targets.area->to;
+  } else {
+    for_each_point(start, [&](const SurfaceSample& sample) { area += sample.weight; });
+  }
+  return {std::sqrt(area / (4 * std::numbers::pi)), model.material.bending_rigidity.phase_1};
+}
+
+}  // namespace vesica::problem

@@ -1,0 +1,76 @@
+#include "vesica/relax/damping_controller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vesica/core/error.hpp"
+
+namespace vesica::relax {
+
+namespace {
+
+/// alpha for the next step, in the units of the options.
+double next_alpha(const DampingOptions& options, double alpha,
+                  const problem::VelocityNorms& velocity) {
+  const double factor = *options.factor;
+  switch (options.kind) {
+    case DampingKind::fixed:
+      return *options.initial;
+    case DampingKind::speed:
+      if (velocity.normal <= 0) return alpha * factor;
+      return std::clamp(options.gain / velocity.normal, alpha / factor, alpha * factor);
+    case DampingKind::ratio:
+    case DampingKind::paper:
+      if (velocity.tangential > options.upper_ratio * velocity.normal) return alpha * factor;
+      if (velocity.tangential < options.lower_ratio * velocity.normal) return alpha / factor;
+      break;
+  }
+  return alpha;
+}
+
+void check(bool holds, std::string_view key, double value, const std::string& rule) {
+  if (!holds) throw ConfigError(fmt::format("damping.{} = {}: {}", key, value, rule));
+}
+
+}  // namespace
+
+DampingOptions resolved_damping(const DampingOptions& options) {
+  DampingOptions result = options;
+  const bool is_paper = options.kind == DampingKind::paper;
+  result.initial = options.initial.value_or(is_paper ? 1e-4 : 1);
+  result.minimum = options.minimum.value_or(is_paper ? 1e-6 : 1e-2);
+  result.maximum = options.maximum.value_or(is_paper ? 1e4 : 10);
+  result.factor = options.factor.value_or(is_paper ? 10 : 2);
+  check(*result.minimum <= *result.maximum, "minimum", *result.minimum,
+        fmt::format("must be <= damping.maximum = {}", *result.maximum));
+  if (options.kind != DampingKind::fixed) {
+    check(*result.initial >= *result.minimum && *result.initial <= *result.maximum, "initial",
+          *result.initial,
+          fmt::format("must lie between damping.minimum = {} and damping.maximum = {}",
+                      *result.minimum, *result.maximum));
+  }
+  check(result.lower_ratio < result.upper_ratio, "lower_ratio", result.lower_ratio,
+        fmt::format("must be < damping.upper_ratio = {}", result.upper_ratio));
+  return result;
+}
+
+DampingController::DampingController(const DampingOptions& options, const problem::Scales& scales)
+    : options_(resolved_damping(options)), scales_(scales) {}
+
+std::vector<Request> DampingController::respond(const StepView& view) {
+  if (view.report.counts.steps == 0) return {SetDamping{*options_.initial * scales_.damping()}};
+  const double speed_unit = scales_.length * scales_.length / scales_.time();
+  problem::VelocityNorms velocity = view.diagnostics.velocity;
+  velocity.normal /= speed_unit;
+  velocity.tangential /= speed_unit;
+  const double alpha = view.state.damping / scales_.damping();
+  double next = next_alpha(options_, alpha, velocity);
+  if (options_.kind != DampingKind::fixed)
+    next = std::clamp(next, *options_.minimum, *options_.maximum);
+  if (next == alpha) return {};
+  return {SetDamping{next * scales_.damping()}};
+}
+
+}  // namespace vesica::relax

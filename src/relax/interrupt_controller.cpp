@@ -1,0 +1,28 @@
+#include "vesica/relax/interrupt_controller.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <string>
+
+namespace vesica::relax {
+namespace {
+
+std::string name_of_signal(int signal) {
+  if (signal == SIGINT) return "SIGINT";
+  if (signal == SIGTERM) return "SIGTERM";
+  return fmt::format("signal {}", signal);
+}
+
+}  // namespace
+
+std::vector<Request> InterruptController::respond(const StepView& view) {
+  const int signal = signal_.load();
+  if (signal == 0) return {};
+  return {Stop{
+      RunStatus::interrupted,
+      fmt::format("{} received after step {}", name_of_signal(signal), view.report.counts.steps),
+      signal}};
+}
+
+}  // namespace vesica::relax

@@ -1,0 +1,128 @@
+#include "vesica/relax/relax.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace vesica::relax {
+
+namespace {
+
+/// One run; its members are what the steps of the loop share.
+class Run {
+ public:
+  Run(solve::Stepper& stepper, const model::Model& model, const StopOptions& stop,
+      std::span<Observer* const> observers, std::span<Controller* const> controllers)
+      : stepper_(stepper),
+        model_(model),
+        stop_(stop),
+        observers_(observers),
+        controllers_(controllers),
+        stationarity_(stop, model) {
+    report_.time = stepper.state().time;
+  }
+
+  Outcome execute() {
+    measure();
+    outcome_.initial_quality = outcome_.smallest_quality = diagnostics_.quality;
+    std::optional<Stop> end = look_and_respond();
+    while (!end) {
+      report_ = stepper_.step(stop_.end_time);
+      if (report_.status == solve::StepStatus::failed) {
+        end = Stop{RunStatus::numerical_failure, report_.reason};
+        break;
+      }
+      measure();
+      end = find_nonsense();
+      if (!end) end = look_and_respond();
+    }
+    return conclude(*end);
+  }
+
+  /// For the way out through an exception: observers complete what they have.
+  void abandon(const std::string& reason) { conclude({RunStatus::numerical_failure, reason}); }
+
+ private:
+  [[nodiscard]] StepView view() const { return {stepper_.state(), report_, diagnostics_}; }
+
+  void measure() {
+    diagnostics_ = problem::measure(model_, stepper_.state());
+    outcome_.smallest_quality = std::min(outcome_.smallest_quality, diagnostics_.quality);
+  }
+
+  [[nodiscard]] std::optional<Stop> find_nonsense() const {
+    if (std::isfinite(diagnostics_.energy.total()) && std::isfinite(diagnostics_.velocity.normal))
+      return std::nullopt;
+    return Stop{
+        RunStatus::numerical_failure,
+        fmt::format("energy or velocity is not a number after step {}", report_.counts.steps)};
+  }
+
+  std::optional<Stop> look_and_respond() {
+    for (auto* observer : observers_) observer->observe(view());
+    std::optional<Stop> end;
+    for (auto* controller : controllers_) {
+      for (const auto& request : controller->respond(view())) {
+        if (const auto* damping = std::get_if<SetDamping>(&request))
+          stepper_.set_damping(damping->alpha);
+        if (const auto* stop = std::get_if<Stop>(&request); stop && !end) end = *stop;
+      }
+    }
+    if (!end && report_.counts.steps > 0 && stationarity_.is_at_rest(view())) end = try_to_finish();
+    if (!end) end = stationarity_.limit(view());
+    return end;
+  }
+
+  /// The state rests: take the constraints to round-off, then look at all criteria once more.
+  std::optional<Stop> try_to_finish() {
+    const auto report = stepper_.finish();
+    if (report.status == solve::StepStatus::failed) return std::nullopt;
+    report_ = report;
+    measure();
+    if (!stationarity_.meets_velocity(diagnostics_) ||
+        !stationarity_.meets_constraints(diagnostics_)) {
+      return std::nullopt;
+    }
+    return Stop{
+        RunStatus::converged,
+        fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met",
+                    diagnostics_.velocity.normal_rigid_free, stop_.normal_velocity)};
+  }
+
+  Outcome conclude(const Stop& end) {
+    outcome_.status = end.status;
+    outcome_.reason = end.reason;
+    outcome_.signal = end.signal;
+    outcome_.diagnostics = diagnostics_;
+    outcome_.report = report_;
+    for (auto* observer : observers_) observer->finish(view(), outcome_);
+    return outcome_;
+  }
+
+  solve::Stepper& stepper_;
+  const model::Model& model_;
+  const StopOptions& stop_;
+  std::span<Observer* const> observers_;
+  std::span<Controller* const> controllers_;
+  Stationarity stationarity_;
+  solve::StepReport report_;
+  problem::Diagnostics diagnostics_;
+  Outcome outcome_;
+};
+
+}  // namespace
+
+Outcome relax(solve::Stepper& stepper, const model::Model& model, const StopOptions& stop,
+              std::span<Observer* const> observers, std::span<Controller* const> controllers) {
+  Run run(stepper, model, stop, observers, controllers);
+  try {
+    return run.execute();
+  } catch (const std::exception& error) {
+    run.abandon(error.what());
+    throw;
+  }
+}
+
+}  // namespace vesica::relax

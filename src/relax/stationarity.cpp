@@ -1,0 +1,87 @@
+#include "vesica/relax/stationarity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace vesica::relax {
+
+namespace {
+
+std::array<std::optional<double>, 3> entries(const problem::PerConstraint& values) {
+  return {values.volume, values.area, values.phase};
+}
+
+double characteristic_radius(const problem::Diagnostics& diagnostics) {
+  return std::sqrt(diagnostics.area / (4 * std::numbers::pi));
+}
+
+bool targets_move(const model::Targets& targets, double time) {
+  for (const auto& ramp : {targets.volume, targets.area, targets.phase_difference}) {
+    if (ramp && !ramp->is_constant() && time < ramp->end) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Stationarity::Stationarity(const StopOptions& options, const model::Model& model)
+    : options_(options), model_(model) {}
+
+bool Stationarity::is_at_rest(const StepView& view) {
+  const auto& multipliers = view.state.values.multipliers;
+  steps_at_rest_ = multipliers_moved(multipliers) ? 0 : steps_at_rest_ + 1;
+  last_multipliers_ = multipliers;
+  const long newton = view.report.counts.newton;
+  steps_without_newton_ = newton == last_newton_ ? steps_without_newton_ + 1 : 0;
+  last_newton_ = newton;
+  return steps_at_rest_ >= options_.rest_steps &&
+         steps_without_newton_ >= options_.steps_without_newton &&
+         meets_velocity(view.diagnostics) && !targets_move(model_.targets, view.state.time);
+}
+
+bool Stationarity::meets_velocity(const problem::Diagnostics& diagnostics) const {
+  return diagnostics.velocity.normal_rigid_free <
+         options_.normal_velocity * characteristic_radius(diagnostics);
+}
+
+bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) const {
+  const auto errors = entries(diagnostics.constraint_errors);
+  return std::all_of(errors.begin(), errors.end(), [&](const auto& error) {
+    return std::abs(error.value_or(0)) < options_.constraint;
+  });
+}
+
+bool Stationarity::multipliers_moved(const problem::PerConstraint& multipliers) const {
+  if (!last_multipliers_) return true;
+  const auto now = entries(multipliers);
+  const auto before = entries(*last_multipliers_);
+  double largest = 0;
+  double change = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    largest = std::max(largest, std::abs(now[i].value_or(0)));
+    change = std::max(change, std::abs(now[i].value_or(0) - before[i].value_or(0)));
+  }
+  return change > options_.multiplier_change * largest;
+}
+
+std::optional<Stop> Stationarity::limit(const StepView& view) const {
+  if (view.state.time >= options_.end_time) {
+    return Stop{RunStatus::end_time, fmt::format("stop.end_time = {} reached", options_.end_time)};
+  }
+  if (view.report.counts.steps >= options_.max_steps) {
+    return Stop{RunStatus::step_limit,
+                fmt::format("stop.max_steps = {} reached", options_.max_steps)};
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  if (elapsed.count() >= options_.max_seconds) {
+    return Stop{RunStatus::time_limit,
+                fmt::format("stop.max_seconds = {} reached", options_.max_seconds)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace vesica::relax

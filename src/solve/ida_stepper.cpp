@@ -1,0 +1,305 @@
+#include "ida_stepper.hpp"
+
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "backward_euler.hpp"
+#include "ida_linear_solvers.hpp"
+#include "vesica/fem/recovery.hpp"
+
+namespace vesica::solve {
+
+namespace {
+
+using sundials::check;
+using sundials::view;
+
+// Settings of GMRES and of the reuse of factors, measured: fewest factorisations over whole
+// relaxations.
+constexpr int krylov_dimension = 10;
+constexpr double krylov_tolerance_factor = 0.2;
+constexpr double largest_cj_change = 0.8;
+constexpr int max_newton_iterations = 6;
+
+constexpr int max_initial_iterations = 10;
+
+/// Mean curvature of the start from its recovered shape operator: kappa = -tr Q.
+Eigen::VectorXd recovered_mean_curvature(const problem::State& state) {
+  const fem::NodeGraph graph(*state.triangulation);
+  const auto q =
+      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 1);
+  return -(q.col(0) + q.col(1) + q.col(2));
+}
+
+problem::State prepared(problem::State start) {
+  start.values.mean_curvature = recovered_mean_curvature(start);
+  start.rates = {};
+  return start;
+}
+
+void silence(int, const char*, const char*, char*, void*) {}
+
+}  // namespace
+
+/// Thin callbacks: they catch everything; +1 asks IDA for a smaller step, -1 ends the call.
+struct IdaStepper::Callbacks {
+  template <class Body>
+  static int guarded(void* user_data, Body&& body) {
+    auto& self = *static_cast<IdaStepper*>(user_data);
+    try {
+      body(self);
+      return 0;
+    } catch (const RecoverableError& trouble) {
+      self.last_trouble_ = trouble.what();
+      return 1;
+    } catch (...) {
+      self.fatal_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  static int residual(realtype time, N_Vector y, N_Vector y_rate, N_Vector result,
+                      void* user_data) {
+    return guarded(user_data, [&](IdaStepper& self) {
+      view(result) = self.system_.residual(self.settings_, time, view(y), view(y_rate));
+    });
+  }
+
+  static int set_up_preconditioner(realtype, N_Vector y, N_Vector y_rate, N_Vector, realtype cj,
+                                   void* user_data) {
+    return guarded(user_data, [&](IdaStepper& self) {
+      self.system_.set_up(self.settings_, {1, cj}, view(y), view(y_rate));
+    });
+  }
+
+  static int solve_preconditioner(realtype, N_Vector, N_Vector, N_Vector, N_Vector b, N_Vector x,
+                                  realtype, realtype, void* user_data) {
+    return guarded(user_data, [&](IdaStepper& self) { view(x) = self.system_.solve(view(b)); });
+  }
+
+  static int jacobian(realtype time, realtype cj, N_Vector y, N_Vector y_rate, N_Vector r,
+                      SUNMatrix, void* user_data, N_Vector, N_Vector, N_Vector) {
+    return set_up_preconditioner(time, y, y_rate, r, cj, user_data);
+  }
+};
+
+IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
+                       problem::State start)
+    : options_(options),
+      state_(prepared(std::move(start))),
+      scales_(problem::scales_of(model, state_)),
+      problem_(state_.triangulation, model, options.threads),
+      settings_{scales_.damping(), options.constraint_rate / scales_.time(),
+                problem::ConstraintForm::differentiated},
+      system_(problem_, options.linear_solver),
+      y_(problem_.layout().pack(state_.values)),
+      y_rate_(Eigen::VectorXd::Zero(y_.size())),
+      context_(sundials::make_context()) {
+  if (state_.damping > 0) settings_.damping = state_.damping;
+  const ScopedTimer timer(total_seconds_);
+  find_initial_rates();
+  store(state_.time, y_, y_rate_);
+  configure_ida();
+}
+
+/// Newton's method for x', c', kappa and lambda at given x and c; exact derivatives, since Q_h
+/// depends on x alone.
+void IdaStepper::find_initial_rates() {
+  const Eigen::VectorXd differential = problem_.layout().differential_mask();
+  try {
+    for (int iteration = 0; iteration < max_initial_iterations; ++iteration) {
+      const auto residual = system_.residual(settings_, state_.time, y_, y_rate_);
+      system_.set_up(settings_, {0, 1}, y_, y_rate_);
+      const Eigen::VectorXd change = system_.solve(residual);
+      const Eigen::VectorXd rates = change.cwiseProduct(differential);
+      const Eigen::VectorXd values = change - rates;
+      y_ -= values;
+      y_rate_ -= rates;
+      if (values.norm() <= 1e-9 * y_.norm() && rates.norm() <= 1e-9 * (y_rate_.norm() + 1e-3))
+        return;
+    }
+  } catch (const RecoverableError& trouble) {
+    throw SolverError(
+        fmt::format("initial values: {}; a finer or smoother start may help", trouble.what()));
+  }
+  throw SolverError(
+      "initial values: Newton's method does not converge; a finer or smoother start may help");
+}
+
+void IdaStepper::configure_ida() {
+  const auto size = problem_.layout().size();
+  ida_y_ = sundials::make_vector(size, context_);
+  ida_y_rate_ = sundials::make_vector(size, context_);
+  view(ida_y_.get()) = y_;
+  view(ida_y_rate_.get()) = y_rate_;
+  ida_ = sundials::IdaMemory(sundials::not_null(IDACreate(context_.get()), "IDACreate"));
+  void* ida = ida_.get();
+  check(IDASetErrHandlerFn(ida, silence, nullptr), "IDASetErrHandlerFn");
+  check(IDAInit(ida, Callbacks::residual, state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAInit");
+  check(IDASetUserData(ida, this), "IDASetUserData");
+
+  const auto tolerances = sundials::make_vector(size, context_);
+  auto atol = view(tolerances.get());
+  const auto block = problem_.layout().block_size();
+  for (Eigen::Index row = 0; row < problem_.layout().num_nodal(); ++row) {
+    const auto component = row % block;
+    const double unit = component < 3 ? scales_.length : component == 3 ? 1 / scales_.length : 1;
+    atol[row] = options_.atol * unit;
+  }
+  atol.tail(problem_.layout().num_multipliers())
+      .setConstant(options_.atol_multipliers * scales_.multiplier());
+  check(IDASVtolerances(ida, options_.rtol, tolerances.get()), "IDASVtolerances");
+
+  const auto kinds = sundials::make_vector(size, context_);
+  view(kinds.get()) = problem_.layout().differential_mask();
+  check(IDASetId(ida, kinds.get()), "IDASetId");
+  check(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+  check(IDASetMaxOrd(ida, options_.max_order), "IDASetMaxOrd");
+  if (options_.initial_step > 0)
+    check(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
+  if (std::isfinite(options_.max_step))
+    check(IDASetMaxStep(ida, options_.max_step), "IDASetMaxStep");
+  configure_linear_solver();
+  check(IDASetMaxNonlinIters(ida, max_newton_iterations), "IDASetMaxNonlinIters");
+}
+
+void IdaStepper::configure_linear_solver() {
+  void* ida = ida_.get();
+  if (options_.newton == NewtonMode::direct) {
+    matrix_ = make_system_matrix(context_);
+    linear_solver_ = make_system_solver(system_, context_);
+    check(IDASetLinearSolver(ida, linear_solver_.get(), matrix_.get()), "IDASetLinearSolver");
+    check(IDASetJacFn(ida, Callbacks::jacobian), "IDASetJacFn");
+    return;
+  }
+  linear_solver_ = sundials::LinearSolver(sundials::not_null(
+      SUNLinSol_SPGMR(ida_y_.get(), SUN_PREC_LEFT, krylov_dimension, context_.get()),
+      "SUNLinSol_SPGMR"));
+  check(IDASetLinearSolver(ida, linear_solver_.get(), nullptr), "IDASetLinearSolver");
+  check(
+      IDASetPreconditioner(ida, Callbacks::set_up_preconditioner, Callbacks::solve_preconditioner),
+      "IDASetPreconditioner");
+  check(IDASetEpsLin(ida, krylov_tolerance_factor), "IDASetEpsLin");
+  check(IDASetDeltaCjLSetup(ida, largest_cj_change), "IDASetDeltaCjLSetup");
+}
+
+/// Steps end at the kinks of the ramps: the multipliers jump there.
+double IdaStepper::next_stop_time(double end_time) const {
+  const auto& targets = problem_.model().targets;
+  double next = end_time;
+  for (const auto& ramp : {targets.volume, targets.area, targets.phase_difference}) {
+    if (!ramp || ramp->is_constant()) continue;
+    for (const double kink : {ramp->start, ramp->end}) {
+      if (kink > state_.time) next = std::min(next, kink);
+    }
+  }
+  return next;
+}
+
+StepReport IdaStepper::step(double end_time) {
+  const ScopedTimer timer(total_seconds_);
+  const double stop_time = next_stop_time(end_time);
+  if (std::isfinite(stop_time)) check(IDASetStopTime(ida_.get(), stop_time), "IDASetStopTime");
+  const double target = std::isfinite(stop_time) ? stop_time : state_.time + scales_.time();
+  last_trouble_.clear();
+  has_stepped_ = true;
+  realtype time = state_.time;
+  const int code =
+      IDASolve(ida_.get(), target, &time, ida_y_.get(), ida_y_rate_.get(), IDA_ONE_STEP);
+  if (fatal_) std::rethrow_exception(std::exchange(fatal_, nullptr));
+  if (code < 0) return report(StepStatus::failed, failure_text(code));
+  y_ = view(ida_y_.get());
+  y_rate_ = view(ida_y_rate_.get());
+  store(time, y_, y_rate_);
+  return report(StepStatus::accepted, {});
+}
+
+/// One backward-Euler step of the last size, with the constraints themselves in place of (e).
+StepReport IdaStepper::finish() {
+  if (!options_.final_constraint_solve) return report(StepStatus::accepted, {});
+  const ScopedTimer timer(total_seconds_);
+  BackwardEulerStep step{
+      settings_, 0, 0, y_, problem_.layout().differential_mask(), Eigen::VectorXd(y_.size())};
+  check(IDAGetLastStep(ida_.get(), &step.step_size), "IDAGetLastStep");
+  const auto weights = sundials::make_vector(y_.size(), context_);
+  check(IDAGetErrWeights(ida_.get(), weights.get()), "IDAGetErrWeights");
+  step.weights = view(weights.get());
+  step.time = state_.time + step.step_size;
+  try {
+    const auto y = solve_backward_euler(system_, step);
+    if (!y)
+      return report(StepStatus::failed,
+                    "final constraint solve: Newton's method does not converge");
+    y_rate_ = step.rates(*y);
+    y_ = *y;
+  } catch (const RecoverableError& trouble) {
+    return report(StepStatus::failed, fmt::format("final constraint solve: {}", trouble.what()));
+  }
+  store(step.time, y_, y_rate_);
+  return report(StepStatus::accepted, {});
+}
+
+void IdaStepper::set_damping(double alpha) {
+  if (alpha == settings_.damping) return;
+  settings_.damping = alpha;
+  state_.damping = alpha;
+  if (!has_stepped_) restart();
+}
+
+/// The consistent start depends on alpha: a value given before the first step changes it.
+void IdaStepper::restart() {
+  const ScopedTimer timer(total_seconds_);
+  find_initial_rates();
+  view(ida_y_.get()) = y_;
+  view(ida_y_rate_.get()) = y_rate_;
+  check(IDAReInit(ida_.get(), state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAReInit");
+  store(state_.time, y_, y_rate_);
+}
+
+void IdaStepper::store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
+  state_.time = time;
+  state_.values = problem_.layout().unpack(y);
+  state_.rates = problem_.layout().unpack(y_rate);
+  state_.damping = settings_.damping;
+}
+
+StepReport IdaStepper::report(StepStatus status, std::string reason) {
+  StepReport result;
+  result.status = status;
+  result.time = state_.time;
+  result.reason = std::move(reason);
+  result.counts = system_.counts();
+  result.seconds = system_.seconds();
+  result.seconds.total = total_seconds_;
+  void* ida = ida_.get();
+  long error_failures = 0;
+  long newton_failures = 0;
+  check(IDAGetNumSteps(ida, &result.counts.steps), "IDAGetNumSteps");
+  check(IDAGetNumNonlinSolvIters(ida, &result.counts.newton), "IDAGetNumNonlinSolvIters");
+  check(IDAGetNumLinIters(ida, &result.counts.krylov), "IDAGetNumLinIters");
+  check(IDAGetNumErrTestFails(ida, &error_failures), "IDAGetNumErrTestFails");
+  check(IDAGetNumNonlinSolvConvFails(ida, &newton_failures), "IDAGetNumNonlinSolvConvFails");
+  result.counts.failures = error_failures + newton_failures;
+  check(IDAGetLastStep(ida, &result.step_size), "IDAGetLastStep");
+  check(IDAGetLastOrder(ida, &result.order), "IDAGetLastOrder");
+  return result;
+}
+
+std::string IdaStepper::failure_text(int code) const {
+  long steps = 0;
+  realtype last_step = 0;
+  check(IDAGetNumSteps(ida_.get(), &steps), "IDAGetNumSteps");
+  check(IDAGetCurrentStep(ida_.get(), &last_step), "IDAGetCurrentStep");
+  return fmt::format(
+      "IDASolve at t = {:.6g}: {}, {} steps, last step tried {:.2g}{}{}; a finer mesh, a larger "
+      "interface_width or "
+      "another damping kind may help, or the shape pinches off",
+      state_.time, sundials::code_text(code), steps, last_step, last_trouble_.empty() ? "" : "; ",
+      last_trouble_);
+}
+
+}  // namespace vesica::solve

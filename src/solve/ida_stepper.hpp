@@ -1,0 +1,60 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "newton_system.hpp"
+#include "sundials.hpp"
+#include "vesica/problem/relaxation_problem.hpp"
+#include "vesica/problem/scales.hpp"
+#include "vesica/solve/solver_options.hpp"
+#include "vesica/solve/stepper.hpp"
+
+namespace vesica::solve {
+
+/// Integrates the relaxation flow with SUNDIALS IDA in one-step mode: variable step, BDF of
+/// variable order, error control on x and c. Newton systems: GMRES with the factors of an older
+/// Jacobian as preconditioner, or those factors directly.
+class IdaStepper final : public Stepper {
+ public:
+  /// Consistent initial values are found here. Throws SolverError when there are none.
+  IdaStepper(const SolverOptions& options, const model::Model& model, problem::State start);
+
+  [[nodiscard]] const problem::State& state() const override { return state_; }
+  StepReport step(double end_time) override;
+  StepReport finish() override;
+  void set_damping(double alpha) override;
+
+ private:
+  struct Callbacks;
+
+  void find_initial_rates();
+  void restart();
+  void configure_ida();
+  void configure_linear_solver();
+  [[nodiscard]] double next_stop_time(double end_time) const;
+  void store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
+  [[nodiscard]] StepReport report(StepStatus status, std::string reason);
+  [[nodiscard]] std::string failure_text(int code) const;
+
+  SolverOptions options_;
+  problem::State state_;
+  problem::Scales scales_;
+  problem::RelaxationProblem problem_;
+  problem::EquationSettings settings_;
+  NewtonSystem system_;
+  Eigen::VectorXd y_;
+  Eigen::VectorXd y_rate_;
+  bool has_stepped_ = false;
+  double total_seconds_ = 0;
+  std::exception_ptr fatal_;   // thrown in a callback, rethrown after the C call
+  std::string last_trouble_;   // text of the last RecoverableError
+  sundials::Context context_;  // SUNDIALS objects in the order of dependence
+  sundials::Vector ida_y_;
+  sundials::Vector ida_y_rate_;
+  sundials::Matrix matrix_;
+  sundials::LinearSolver linear_solver_;
+  sundials::IdaMemory ida_;
+};
+
+}  // namespace vesica::solve

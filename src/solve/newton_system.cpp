@@ -1,0 +1,48 @@
+#include "newton_system.hpp"
+
+#include <chrono>
+
+namespace vesica::solve {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+ScopedTimer::ScopedTimer(double& total) : total_(total), start_(now()) {}
+ScopedTimer::~ScopedTimer() { total_ += now() - start_; }
+
+NewtonSystem::NewtonSystem(const problem::RelaxationProblem& problem, linalg::DirectSolverKind kind)
+    : problem_(problem),
+      matrix_(problem.make_matrix()),
+      solver_(kind, matrix_, problem.layout().block_size()) {}
+
+Eigen::VectorXd NewtonSystem::residual(const problem::EquationSettings& settings, double time,
+                                       const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
+  const ScopedTimer timer(seconds_.residual);
+  ++counts_.residuals;
+  return problem_.residual(settings, time, y, y_rate);
+}
+
+void NewtonSystem::set_up(const problem::EquationSettings& settings,
+                          const problem::JacobianWeights& weights, const Eigen::VectorXd& y,
+                          const Eigen::VectorXd& y_rate) {
+  {
+    const ScopedTimer timer(seconds_.jacobian);
+    ++counts_.jacobians;
+    problem_.jacobian(settings, weights, y, y_rate, matrix_);
+  }
+  const ScopedTimer timer(seconds_.factorisation);
+  ++counts_.factorisations;
+  solver_.factorise(matrix_);
+}
+
+Eigen::VectorXd NewtonSystem::solve(const Eigen::VectorXd& b) {
+  const ScopedTimer timer(seconds_.solve);
+  return solver_.solve(b);
+}
+
+}  // namespace vesica::solve

@@ -1,0 +1,258 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fake_run.hpp"
+#include "io/hdf5.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/io/trajectory_writer.hpp"
+
+namespace vesica::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads what a run wrote, through the C interface.
+class ReadableFile {
+ public:
+  explicit ReadableFile(const fs::path& path)
+      : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
+    if (file_.get() < 0) throw IoError("cannot open " + path.string());
+  }
+  [[nodiscard]] std::vector<hsize_t> shape(const std::string& path) const {
+    const hdf5::DatasetHandle dataset(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT));
+    const hdf5::SpaceHandle space(H5Dget_space(dataset.get()));
+    std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
+    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    return shape;
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> read(const std::string& path, hid_t type) const {
+    hsize_t count = 1;
+    for (const hsize_t extent : shape(path)) count *= extent;
+    std::vector<T> values(count);
+    const hdf5::DatasetHandle dataset(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT));
+    if (H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+      throw IoError(path);
+    return values;
+  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& path) const {
+    return read<double>(path, H5T_NATIVE_DOUBLE);
+  }
+  [[nodiscard]] double number_attribute(const std::string& object, const std::string& name) const {
+    double value = NAN;
+    const hdf5::AttributeHandle attribute = open_attribute(object, name);
+    H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value);
+    return value;
+  }
+  [[nodiscard]] std::string text_attribute(const std::string& object,
+                                           const std::string& name) const {
+    const hdf5::AttributeHandle attribute = open_attribute(object, name);
+    const hdf5::TypeHandle type(H5Aget_type(attribute.get()));
+    std::string text(H5Tget_size(type.get()), '\0');
+    H5Aread(attribute.get(), type.get(), text.data());
+    return text;
+  }
+  [[nodiscard]] bool has(const std::string& path) const {
+    return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+  }
+
+ private:
+  [[nodiscard]] hdf5::AttributeHandle open_attribute(const std::string& object,
+                                                     const std::string& name) const {
+    return hdf5::AttributeHandle(
+        H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+  }
+  hdf5::FileHandle file_;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// A run that can be written step by step.
+struct FakeRun {
+  problem::State state = fake_state();
+  problem::Diagnostics measured = fake_diagnostics();
+  solve::StepReport report = fake_report(0);
+  RunConfig config;
+
+  void observe(relax::Observer& observer, long step) {
+    report.counts.steps = step;
+    state.time = 0.5 * static_cast<double>(step);
+    observer.observe({state, report, measured});
+  }
+  void finish(relax::Observer& observer, relax::RunStatus status = relax::RunStatus::converged) {
+    observer.finish({state, report, measured}, fake_outcome(status));
+  }
+};
+
+TEST(TrajectoryWriter, WritesFramesSeriesConfigurationAndOutcome) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  run.config.phase.emplace();
+  run.config.title = "a test";
+  {
+    TrajectoryWriter writer(folder.path(), run.config, {});
+    for (long step = 0; step <= 7; ++step) run.observe(writer, step);
+    run.finish(writer);
+  }
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  const auto triangles = file.read<std::int32_t>("/meshes/000000/triangles", H5T_NATIVE_INT32);
+  EXPECT_EQ(file.shape("/meshes/000000/triangles"), (std::vector<hsize_t>{8, 6}));
+  EXPECT_EQ((std::vector<std::int32_t>(triangles.begin(), triangles.begin() + 6)),
+            (std::vector<std::int32_t>{0, 1, 4, 6, 7, 8}));
+  EXPECT_FALSE(file.has("/meshes/000001"));
+  EXPECT_TRUE(file.has("/frames/000002"));
+  EXPECT_FALSE(file.has("/frames/000003"));
+  EXPECT_EQ(file.number_attribute("/frames/000001", "step"), 5);
+  EXPECT_EQ(file.number_attribute("/frames/000002", "step"), 7);
+  EXPECT_EQ(file.number_attribute("/frames/000002", "time"), 3.5);
+  EXPECT_EQ(file.number_attribute("/frames/000002", "multiplier_volume"), 27.5);
+  EXPECT_EQ(file.text_attribute("/frames/000002", "mesh"), "/meshes/000000");
+  EXPECT_EQ(file.shape("/frames/000001/positions"), (std::vector<hsize_t>{18, 3}));
+  EXPECT_EQ(file.numbers("/frames/000001/positions")[4], 1);  // second node is (0, 1, 0)
+  EXPECT_EQ(file.numbers("/frames/000001/velocity")[4], 0.5);
+  EXPECT_EQ(file.numbers("/frames/000001/order_parameter")[2], -1);
+  EXPECT_EQ(file.numbers("/frames/000001/mean_curvature"), std::vector<double>(18, -2));
+  EXPECT_EQ(file.numbers("/frames/000001/normal_velocity").size(), 18U);
+  EXPECT_EQ(file.numbers("/frames/000001/bending_energy_density").size(), 18U);
+  EXPECT_TRUE(file.has("/frames/000001/mesh/triangles"));
+  EXPECT_EQ(file.numbers("/series/step"), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(file.numbers("/series/energy_total")[3], 58.75);
+  EXPECT_TRUE(std::isnan(file.numbers("/series/multiplier_phase")[3]));
+  EXPECT_EQ(file.text_attribute("/configuration", "title"), "a test");
+  EXPECT_EQ(file.number_attribute("/configuration/solver", "rtol"), 1e-3);
+  EXPECT_EQ(file.text_attribute("/configuration/phase", "kind"), "ramp");
+  EXPECT_EQ(file.text_attribute("/configuration/material", "bending_rigidity"), "[1.0, 1.0]");
+  EXPECT_EQ(file.text_attribute("/versions", "vesica").substr(0, 2), "0.");
+  EXPECT_EQ(file.text_attribute("/outcome", "status"), "converged");
+  EXPECT_EQ(file.text_attribute("/outcome", "reason"), "because of the \"test\"");
+}
+
+TEST(TrajectoryWriter, AFileOfARunThatGoesOnIsReadableUpToTheLastFrame) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  for (long step = 0; step <= 6; ++step) run.observe(writer, step);
+  const ReadableFile file(folder.path() / "trajectory.part.h5");
+  EXPECT_EQ(file.numbers("/series/step").size(), 6U);
+  EXPECT_TRUE(file.has("/frames/000001"));
+  EXPECT_NE(text_of(folder.path() / "trajectory.part.xdmf")
+                .find("trajectory.part.h5:/frames/000001/positions"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder.path() / "trajectory.h5"));
+}
+
+TEST(TrajectoryWriter, AnOlderRunStaysWholeUntilTheNewOneIsFinished) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "trajectory.h5") << "old";
+  std::ofstream(folder.path() / "trajectory.xdmf") << "old";
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  EXPECT_EQ(text_of(folder.path() / "trajectory.h5"), "old");
+  run.finish(writer, relax::RunStatus::numerical_failure);
+  EXPECT_EQ(ReadableFile(folder.path() / "trajectory.h5").text_attribute("/outcome", "status"),
+            "numerical failure");
+  EXPECT_NE(
+      text_of(folder.path() / "trajectory.xdmf").find("trajectory.h5:/frames/000000/positions"),
+      std::string::npos);
+  EXPECT_FALSE(fs::exists(folder.path() / "trajectory.part.h5"));
+  EXPECT_FALSE(fs::exists(folder.path() / "trajectory.part.xdmf"));
+}
+
+TEST(TrajectoryWriter, AFinalStateThatMovedAfterTheLastStepGetsItsOwnFrameAndRow) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  run.state.values.positions *= 1.5;
+  run.finish(writer);
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  EXPECT_EQ(file.numbers("/frames/000001/positions")[4], 1.5);
+  EXPECT_EQ(file.numbers("/series/step").size(), 2U);
+}
+
+TEST(TrajectoryWriter, ANewConnectivityGetsItsOwnMesh) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  run.state.triangulation = octahedron().triangulation;
+  run.observe(writer, 5);
+  run.finish(writer);
+  EXPECT_EQ(ReadableFile(folder.path() / "trajectory.h5").text_attribute("/frames/000001", "mesh"),
+            "/meshes/000001");
+}
+
+TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  run.state.values.order_parameter.resize(0);
+  run.state.rates.order_parameter.resize(0);
+  model::Model model;
+  model.is_two_phase = false;
+  TrajectoryWriter writer(folder.path(), run.config, model);
+  run.observe(writer, 0);
+  run.finish(writer);
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  EXPECT_FALSE(file.has("/frames/000000/order_parameter"));
+  EXPECT_EQ(text_of(folder.path() / "trajectory.xdmf").find("Name=\"c\""), std::string::npos);
+}
+
+TEST(TrajectoryWriter, AFolderThatDoesNotExistIsNamed) {
+  try {
+    const TrajectoryWriter writer("/nonexistent/folder", {}, {});
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("/nonexistent/folder/trajectory.part.h5: "))
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(TrajectoryWriter, AFullDiskIsAnErrorThatLeavesTheOlderRunAlone) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "trajectory.h5") << "old";
+  FakeRun run;
+  run.config.output.every_steps = 1;
+  std::string message;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  {
+    TrajectoryWriter writer(folder.path(), run.config, {});
+    run.observe(writer, 0);
+    const rlimit limit{fs::file_size(folder.path() / "trajectory.part.h5") + 100, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    try {
+      for (long step = 1; step <= 20; ++step) run.observe(writer, step);
+    } catch (const IoError& error) {
+      message = error.what();
+    }
+    EXPECT_NO_THROW(run.finish(writer, relax::RunStatus::numerical_failure));
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("trajectory.part.h5"), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+  EXPECT_EQ(text_of(folder.path() / "trajectory.h5"), "old");
+  const ReadableFile file(folder.path() / "trajectory.part.h5");
+  EXPECT_EQ(file.numbers("/frames/000000/positions").size(), 54U);
+  EXPECT_EQ(file.numbers("/series/step").size(), 1U);
+  EXPECT_FALSE(file.has("/frames/000001"));
+}
+
+}  // namespace
+}  // namespace vesica::io

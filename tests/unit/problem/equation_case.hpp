@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "block_matrices.hpp"
+#include "relaxation_cases.hpp"
+#include "vesica/problem/relaxation_problem.hpp"
+
+namespace vesica::problem {
+
+/// A model on a small deformed sphere with fields and rates of no symmetry, far from equilibrium.
+struct EquationCase {
+  std::string name;
+  mesh::Surface surface;
+  model::Model model;
+  EquationSettings settings{2.5, 30, ConstraintForm::differentiated};
+  double time = 0.4;
+  Eigen::VectorXd y;
+  Eigen::VectorXd y_rate;
+
+  [[nodiscard]] RelaxationProblem problem(int threads = 1) const {
+    return {surface.triangulation, model, threads};
+  }
+};
+
+/// Nodes of a unit sphere (N = 42), moved at random and stretched.
+inline mesh::Surface deformed_sphere(std::mt19937& engine) {
+  auto surface = test::make_sphere(1);
+  for (Eigen::Index i = 0; i < surface.positions.rows(); ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k)
+      surface.positions(i, k) += 0.04 * linalg::random_number(engine);
+  }
+  surface.positions.col(0) *= 1.4;
+  return surface;
+}
+
+inline void fill_fields(EquationCase& c, std::mt19937& engine) {
+  const DofLayout layout(c.surface.triangulation->num_nodes(), c.model);
+  const auto n = layout.num_nodes();
+  Fields values;
+  values.positions = c.surface.positions;
+  values.mean_curvature = -2 + 0.5 * linalg::random_vector(n, engine).array();
+  values.order_parameter = 0.8 * linalg::random_vector(n, engine);
+  values.multipliers = {3.0, -1.5, 0.7};
+  Fields rates;
+  rates.positions = linalg::random_matrix(n, 3, engine);
+  rates.mean_curvature = Eigen::VectorXd::Zero(n);
+  rates.order_parameter = linalg::random_vector(n, engine);
+  c.y = layout.pack(values);
+  c.y_rate = layout.pack(rates);
+}
+
+/// Every constant differs between the phases; the targets of volume and phase move at the time of
+/// the test.
+inline model::Model two_phase_model() {
+  model::Model model;
+  model.material.bending_rigidity = {1.5, 0.9};
+  model.material.spontaneous_curvature = {-1, 0.5};
+  model.material.gaussian_rigidity = {0.7, -0.4};
+  model.material.line_tension = 1.2;
+  model.material.interface_width = 0.4;
+  model.material.kinetic_coefficient = 0.3;
+  model.targets.volume = model::Ramp{5, 4, 0, 1};
+  model.targets.area = model::Ramp::constant(14);
+  model.targets.phase_difference = model::Ramp{1, 2, 0.2, 0.8};
+  return model;
+}
+
+inline EquationCase make_equation_case(std::string name, const model::Model& model) {
+  std::mt19937 engine(11);
+  EquationCase c;
+  c.name = std::move(name);
+  c.surface = deformed_sphere(engine);
+  c.model = model;
+  fill_fields(c, engine);
+  return c;
+}
+
+/// The cases of the Jacobian tests: all terms; constraints left free; one phase.
+inline std::vector<EquationCase> equation_cases() {
+  std::vector<EquationCase> cases;
+  cases.push_back(make_equation_case("two phases", two_phase_model()));
+  auto free_area = two_phase_model();
+  free_area.targets.area.reset();
+  cases.push_back(make_equation_case("two phases, area free", free_area));
+  auto unconstrained = two_phase_model();
+  unconstrained.targets = {};
+  cases.push_back(make_equation_case("two phases, no constraint", unconstrained));
+  auto single = two_phase_model();
+  single.is_two_phase = false;
+  single.targets.phase_difference.reset();
+  cases.push_back(make_equation_case("one phase", single));
+  single.targets.volume.reset();
+  cases.push_back(make_equation_case("one phase, volume free", single));
+  return cases;
+}
+
+}  // namespace vesica::problem
