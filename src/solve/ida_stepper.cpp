@@ -25,7 +25,9 @@ constexpr double krylov_tolerance_factor = 0.2;
 constexpr double largest_cj_change = 0.8;
 constexpr int max_newton_iterations = 6;
 
-constexpr int max_initial_iterations = 10;
+constexpr int max_initial_iterations = 15;
+constexpr double initial_tolerance = 1e-8;
+constexpr double slow_convergence = 0.2;
 
 /// Mean curvature of the start from its recovered shape operator: kappa = -tr Q.
 Eigen::VectorXd recovered_mean_curvature(const problem::State& state) {
@@ -106,28 +108,35 @@ IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
   configure_ida();
 }
 
-/// Newton's method for x', c', kappa and lambda at given x and c; exact derivatives, since Q_h
-/// depends on x alone.
+/// Newton's method for x', c', kappa and lambda at given x and c. The factors are renewed only when the changes do not
+/// fall fast: the equations are linear but for kappa, which starts from the recovered shape operator.
 void IdaStepper::find_initial_rates() {
   const Eigen::VectorXd differential = problem_.layout().differential_mask();
+  double last_change = 0;
+  bool needs_factors = true;
   try {
     for (int iteration = 0; iteration < max_initial_iterations; ++iteration) {
       const auto residual = system_.residual(settings_, state_.time, y_, y_rate_);
-      system_.set_up(settings_, {0, 1}, y_, y_rate_);
+      if (needs_factors) system_.set_up(settings_, {0, 1}, y_, y_rate_);
       const Eigen::VectorXd change = system_.solve(residual);
       const Eigen::VectorXd rates = change.cwiseProduct(differential);
       const Eigen::VectorXd values = change - rates;
       y_ -= values;
       y_rate_ -= rates;
-      if (values.norm() <= 1e-9 * y_.norm() && rates.norm() <= 1e-9 * (y_rate_.norm() + 1e-3))
-        return;
+      const double size = values.norm() / y_.norm() + rates.norm() / (y_rate_.norm() + resting_rate());
+      if (size <= initial_tolerance) return;
+      needs_factors = iteration > 0 && size > slow_convergence * last_change;
+      last_change = size;
     }
   } catch (const RecoverableError& trouble) {
-    throw SolverError(
-        fmt::format("initial values: {}; a finer or smoother start may help", trouble.what()));
+    throw SolverError(fmt::format("initial values: {}; a finer or smoother start may help", trouble.what()));
   }
-  throw SolverError(
-      "initial values: Newton's method does not converge; a finer or smoother start may help");
+  throw SolverError("initial values: Newton's method does not converge; a finer or smoother start may help");
+}
+
+/// A norm of rates that counts as rest: the shape would change by 1e-3 of its size in its natural time.
+double IdaStepper::resting_rate() const {
+  return 1e-3 * scales_.length / scales_.time() * std::sqrt(static_cast<double>(y_.size()));
 }
 
 void IdaStepper::configure_ida() {

@@ -29,6 +29,7 @@ class IdaStepper final : public Stepper {
   struct Callbacks;
 
   void find_initial_rates();
+  [[nodiscard]] double resting_rate() const;
   void restart();
   void configure_ida();
   void configure_linear_solver();

@@ -109,23 +109,32 @@ SemiImplicitStepper::SemiImplicitStepper(const SolverOptions& options, const mod
 }
 
 StepReport SemiImplicitStepper::step(double end_time) {
-  const ScopedTimer timer(seconds_.total);
+  std::string trouble;
+  {
+    const ScopedTimer timer(seconds_.total);
+    trouble = try_step(end_time);
+  }
+  return report(trouble.empty() ? StepStatus::accepted : StepStatus::failed, std::move(trouble));
+}
+
+std::string SemiImplicitStepper::try_step(double end_time) {
   const double remaining = end_time - state_.time;
   const bool is_last = remaining <= time_step_ * (1 + 1e-6);
   const double tau = is_last ? remaining : time_step_;
+  const double time = is_last ? end_time : state_.time + tau;
   try {
-    accept(advance(tau), tau, is_last ? end_time : state_.time + tau);
+    accept(advance(tau, time), tau, time);
   } catch (const RecoverableError& trouble) {
     ++counts_.failures;
-    return report(StepStatus::failed,
-                  fmt::format("semi-implicit step {} at t = {:.6g}, tau = {:.2g}: {}; a smaller "
-                              "solver.time_step or a finer mesh may help",
-                              counts_.steps + 1, state_.time, tau, trouble.what()));
+    return fmt::format(
+        "semi-implicit step {} at t = {:.6g}, tau = {:.2g}: {}; a smaller solver.time_step or a "
+        "finer mesh may help",
+        counts_.steps + 1, state_.time, tau, trouble.what());
   }
-  return report(StepStatus::accepted, {});
+  return {};
 }
 
-problem::Fields SemiImplicitStepper::advance(double tau) {
+problem::Fields SemiImplicitStepper::advance(double tau, double time) {
   fem::NodalShapeOperator shape_operator;
   {
     const ScopedTimer timer(seconds_.residual);
@@ -136,7 +145,7 @@ problem::Fields SemiImplicitStepper::advance(double tau) {
     ++counts_.jacobians;
     problem_.assemble({tau, state_.damping}, state_.values, shape_operator, system_);
   }
-  return meet_constraints(solve_system(), state_.time + tau);
+  return meet_constraints(solve_system(), time);
 }
 
 problem::SemiImplicitSolution SemiImplicitStepper::solve_system() {

@@ -35,7 +35,9 @@ class SemiImplicitStepper final : public Stepper {
   void set_damping(double alpha) override { state_.damping = alpha; }
 
  private:
-  [[nodiscard]] problem::Fields advance(double tau);
+  /// One step; the text says what went wrong, empty when it was accepted.
+  [[nodiscard]] std::string try_step(double end_time);
+  [[nodiscard]] problem::Fields advance(double tau, double time);
   [[nodiscard]] problem::SemiImplicitSolution solve_system();
   [[nodiscard]] problem::Fields meet_constraints(const problem::SemiImplicitSolution& solution,
                                                  double time);

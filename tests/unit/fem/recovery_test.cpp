@@ -8,6 +8,7 @@
 #include "nodal_shape_operators.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/fem/quadrature.hpp"
 
 namespace vesica::fem {
 namespace {

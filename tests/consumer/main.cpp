@@ -1,0 +1,34 @@
+// Relaxes a single-phase vesicle of reduced volume 0.9 from an ellipsoid, with the installed headers alone.
+
+#include <array>
+#include <cstdio>
+#include <vesica/mesh/shapes.hpp>
+#include <vesica/relax/damping_controller.hpp>
+#include <vesica/relax/relax.hpp>
+#include <vesica/solve/make_stepper.hpp>
+
+int main() {
+  using namespace vesica;
+  mesh::ShapeOptions shape;
+  shape.kind = mesh::ShapeKind::ellipsoid;
+  shape.semi_axes = {1.4, 0.83, 0.83};
+  shape.resolution = 3;
+  const auto surface = mesh::make_shape(shape);
+
+  model::Model model;
+  model.is_two_phase = false;
+  model.targets.volume = model::Ramp::constant(3.769911184308);  // 0.9 of the unit sphere
+  model.targets.area = model::Ramp::constant(12.566370614359);
+
+  problem::State start;
+  start.triangulation = surface.triangulation;
+  start.values.positions = surface.positions;
+  const auto stepper = solve::make_stepper({}, model, start);
+
+  relax::DampingController damping({}, problem::scales_of(model, start));
+  const std::array<relax::Controller*, 1> controllers{&damping};
+  const auto outcome = relax::relax(*stepper, model, {}, {}, controllers);
+  std::printf("F = %.5f (prolate: 29.89902), %s\n", outcome.diagnostics.energy.total(),
+              outcome.reason.c_str());
+  return outcome.status == relax::RunStatus::converged ? 0 : 1;
+}

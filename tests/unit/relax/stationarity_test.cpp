@@ -1,0 +1,91 @@
+#include "vesica/relax/stationarity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace vesica::relax {
+namespace {
+
+/// Views with chosen velocity, multiplier and constraint errors on a surface with R_c = 2.
+class StationarityTest : public ::testing::Test {
+ protected:
+  StationarityTest() {
+    diagnostics_.area = 16 * std::numbers::pi;
+    diagnostics_.constraint_errors = {1e-9, -1e-9, std::nullopt};
+    options_.end_time = 100;
+    options_.max_steps = 50;
+  }
+
+  StepView view(double velocity, double multiplier) {
+    diagnostics_.velocity.normal_rigid_free = velocity;
+    diagnostics_.velocity.normal = 1;  // the plain one does not count
+    state_.values.multipliers = {multiplier, 0.1, std::nullopt};
+    return {state_, report_, diagnostics_};
+  }
+
+  StopOptions options_;
+  model::Model model_;
+  problem::State state_;
+  solve::StepReport report_;
+  problem::Diagnostics diagnostics_;
+};
+
+TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdTimesTheRadius) {
+  const Stationarity criterion(options_, model_);
+  (void)view(1.9e-3, 0);
+  EXPECT_TRUE(criterion.meets_velocity(diagnostics_));
+  (void)view(2.1e-3, 0);
+  EXPECT_FALSE(criterion.meets_velocity(diagnostics_));
+}
+
+TEST_F(StationarityTest, WantsTheMultipliersAtRestOverTheLastSteps) {
+  Stationarity criterion(options_, model_);
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));  // nothing to compare with
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20.01)));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));
+  EXPECT_TRUE(criterion.is_at_rest(view(1e-4, 20.01)));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20.1)));  // more than 1e-3 of 20
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20.1)));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20.1)));
+  EXPECT_TRUE(criterion.is_at_rest(view(1e-4, 20.1)));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-2, 20.1)));
+}
+
+TEST_F(StationarityTest, DoesNotRestWhileATargetMoves) {
+  model_.targets.volume = model::Ramp{1, 2, 0, 10};
+  options_.rest_steps = 1;
+  Stationarity criterion(options_, model_);
+  state_.time = 5;
+  (void)criterion.is_at_rest(view(1e-4, 20));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));
+  state_.time = 10;
+  EXPECT_TRUE(criterion.is_at_rest(view(1e-4, 20)));
+}
+
+TEST_F(StationarityTest, WantsEveryConstraintThatThereIs) {
+  const Stationarity criterion(options_, model_);
+  EXPECT_TRUE(criterion.meets_constraints(diagnostics_));
+  diagnostics_.constraint_errors.area = -2e-8;
+  EXPECT_FALSE(criterion.meets_constraints(diagnostics_));
+  diagnostics_.constraint_errors = {};
+  EXPECT_TRUE(criterion.meets_constraints(diagnostics_));
+}
+
+TEST_F(StationarityTest, NamesTheLimitThatIsReached) {
+  const Stationarity criterion(options_, model_);
+  EXPECT_FALSE(criterion.limit(view(1, 20)).has_value());
+  report_.counts.steps = 50;
+  EXPECT_EQ(criterion.limit(view(1, 20))->status, RunStatus::step_limit);
+  state_.time = 100;
+  EXPECT_EQ(criterion.limit(view(1, 20))->status, RunStatus::end_time);
+}
+
+TEST_F(StationarityTest, EndsAtTheWallClockLimit) {
+  options_.max_seconds = 1e-9;
+  const Stationarity criterion(options_, model_);
+  EXPECT_EQ(criterion.limit(view(1, 20))->status, RunStatus::time_limit);
+}
+
+}  // namespace
+}  // namespace vesica::relax
