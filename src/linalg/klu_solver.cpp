@@ -4,6 +4,7 @@
 #include <klu.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "node_ordering.hpp"
@@ -49,6 +50,8 @@ class KluSolver final : public DirectSolver {
 
   void factorise(const SparseMatrix& matrix) override {
     values_ = matrix.values;
+    if (!std::all_of(values_.begin(), values_.end(), [](double v) { return std::isfinite(v); }))
+      throw RecoverableError("klu_l_factor: the matrix holds a value that is not finite");
     klu_l_free_numeric(&numeric_, &common_);
     numeric_ = klu_l_factor(starts_.data(), rows_.data(), values_.data(), symbolic_, &common_);
     if (numeric_ == nullptr || common_.status != KLU_OK) fail("klu_l_factor");

@@ -24,6 +24,8 @@ constexpr int krylov_dimension = 10;
 constexpr double krylov_tolerance_factor = 0.2;
 constexpr double largest_cj_change = 0.8;
 constexpr int max_newton_iterations = 6;
+constexpr double multiplier_tolerance_factor =
+    1e4;  // they are large at a start with kinks, and not error-tested
 
 constexpr int max_initial_iterations = 15;
 constexpr double initial_tolerance = 1e-8;
@@ -108,8 +110,9 @@ IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
   configure_ida();
 }
 
-/// Newton's method for x', c', kappa and lambda at given x and c. The factors are renewed only when the changes do not
-/// fall fast: the equations are linear but for kappa, which starts from the recovered shape operator.
+/// Newton's method for x', c', kappa and lambda at given x and c. The factors are renewed only when
+/// the changes do not fall fast: the equations are linear but for kappa, which starts from the
+/// recovered shape operator.
 void IdaStepper::find_initial_rates() {
   const Eigen::VectorXd differential = problem_.layout().differential_mask();
   double last_change = 0;
@@ -123,18 +126,22 @@ void IdaStepper::find_initial_rates() {
       const Eigen::VectorXd values = change - rates;
       y_ -= values;
       y_rate_ -= rates;
-      const double size = values.norm() / y_.norm() + rates.norm() / (y_rate_.norm() + resting_rate());
+      const double size =
+          values.norm() / y_.norm() + rates.norm() / (y_rate_.norm() + resting_rate());
       if (size <= initial_tolerance) return;
       needs_factors = iteration > 0 && size > slow_convergence * last_change;
       last_change = size;
     }
   } catch (const RecoverableError& trouble) {
-    throw SolverError(fmt::format("initial values: {}; a finer or smoother start may help", trouble.what()));
+    throw SolverError(
+        fmt::format("initial values: {}; a finer or smoother start may help", trouble.what()));
   }
-  throw SolverError("initial values: Newton's method does not converge; a finer or smoother start may help");
+  throw SolverError(
+      "initial values: Newton's method does not converge; a finer or smoother start may help");
 }
 
-/// A norm of rates that counts as rest: the shape would change by 1e-3 of its size in its natural time.
+/// A norm of rates that counts as rest: the shape would change by 1e-3 of its size in its natural
+/// time.
 double IdaStepper::resting_rate() const {
   return 1e-3 * scales_.length / scales_.time() * std::sqrt(static_cast<double>(y_.size()));
 }
@@ -152,16 +159,8 @@ void IdaStepper::configure_ida() {
   check(IDASetUserData(ida, this), "IDASetUserData");
 
   const auto tolerances = sundials::make_vector(size, context_);
-  auto atol = view(tolerances.get());
-  const auto block = problem_.layout().block_size();
-  for (Eigen::Index row = 0; row < problem_.layout().num_nodal(); ++row) {
-    const auto component = row % block;
-    const double unit = component < 3 ? scales_.length : component == 3 ? 1 / scales_.length : 1;
-    atol[row] = options_.atol * unit;
-  }
-  atol.tail(problem_.layout().num_multipliers())
-      .setConstant(options_.atol_multipliers * scales_.multiplier());
-  check(IDASVtolerances(ida, options_.rtol, tolerances.get()), "IDASVtolerances");
+  view(tolerances.get()) = error_tolerances();
+  check(IDASVtolerances(ida, 0.0, tolerances.get()), "IDASVtolerances");
 
   const auto kinds = sundials::make_vector(size, context_);
   view(kinds.get()) = problem_.layout().differential_mask();
@@ -174,6 +173,22 @@ void IdaStepper::configure_ida() {
     check(IDASetMaxStep(ida, options_.max_step), "IDASetMaxStep");
   configure_linear_solver();
   check(IDASetMaxNonlinIters(ida, max_newton_iterations), "IDASetMaxNonlinIters");
+}
+
+/// The error allowed in each unknown: relative to the diameter 2 R_c, to the curvature 2/R_c of the
+/// sphere and to the range of c, not to the single value, so the steps do not depend on where the
+/// origin is.
+Eigen::VectorXd IdaStepper::error_tolerances() const {
+  const auto block = problem_.layout().block_size();
+  Eigen::VectorXd tolerances(problem_.layout().size());
+  for (Eigen::Index row = 0; row < problem_.layout().num_nodal(); ++row) {
+    const auto component = row % block;
+    const double unit = component < 3 ? scales_.length : component == 3 ? 1 / scales_.length : 1;
+    tolerances[row] = (2 * options_.rtol + options_.atol) * unit;
+  }
+  tolerances.tail(problem_.layout().num_multipliers())
+      .setConstant(options_.rtol * multiplier_tolerance_factor * scales_.multiplier());
+  return tolerances;
 }
 
 void IdaStepper::configure_linear_solver() {

@@ -33,6 +33,7 @@ class IdaStepper final : public Stepper {
   void restart();
   void configure_ida();
   void configure_linear_solver();
+  [[nodiscard]] Eigen::VectorXd error_tolerances() const;
   [[nodiscard]] double next_stop_time(double end_time) const;
   void store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
   [[nodiscard]] StepReport report(StepStatus status, std::string reason);

@@ -1,14 +1,32 @@
 #include "vesica/solve/make_stepper.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "ida_stepper.hpp"
 #include "semi_implicit_stepper.hpp"
+#include "vesica/core/error.hpp"
 
 namespace vesica::solve {
 
+namespace {
+
+void check(const SolverOptions& options) {
+  if (options.max_order < 1 || options.max_order > 5) {
+    throw ConfigError(fmt::format("solver.max_order = {}: must be 1 to 5", options.max_order));
+  }
+  if (options.initial_step > options.max_step) {
+    throw ConfigError(fmt::format("solver.initial_step = {}: must be <= solver.max_step = {}",
+                                  options.initial_step, options.max_step));
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<Stepper> make_stepper(const SolverOptions& options, const model::Model& model,
                                       problem::State start) {
+  check(options);
   switch (options.method) {
     case Method::semi_implicit:
       return std::make_unique<SemiImplicitStepper>(options, model, std::move(start));

@@ -21,8 +21,7 @@ struct SolverOptions {
   Method method = Method::ida;
   Scheme scheme = Scheme::paper;
   double rtol = 1e-3;
-  double atol = 1e-3;
-  double atol_multipliers = 10;
+  double atol = 1e-6;
   int max_order = 5;
   double initial_step = 0;
   double max_step = std::numeric_limits<double>::infinity();
@@ -39,14 +38,13 @@ struct SolverOptions {
     visit(Field{"method", "-", "integrator: ida (adaptive) or semi-implicit (the paper's own)"},
           self.method);
     visit(Field{"scheme", "-", "equations: paper (weak form of Problem 3.1)"}, self.scheme);
-    visit(Field{"rtol", "-", "relative tolerance of the error test in time", Rule::positive},
+    visit(Field{"rtol", "-",
+                "error allowed in a step, relative to the diameter 2 R_c and to the range of c",
+                Rule::positive},
           self.rtol);
-    visit(
-        Field{"atol", "-", "absolute tolerance; x in R_c, kappa in 1/R_c, c in 1", Rule::positive},
-        self.atol);
-    visit(Field{"atol_multipliers", "energy/length^3",
-                "absolute tolerance of the multipliers in Newton's iteration", Rule::positive},
-          self.atol_multipliers);
+    visit(Field{"atol", "R_c", "absolute error, added to it (for c: a pure number)",
+                Rule::non_negative},
+          self.atol);
     visit(Field{"max_order", "-", "largest order of the BDF method, 1 to 5", Rule::at_least_one},
           self.max_order);
     visit(Field{"initial_step", "length^4/energy", "first step; 0: chosen by IDA",

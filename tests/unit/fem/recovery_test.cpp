@@ -27,7 +27,7 @@ TEST(RecoveredShapeOperator, IsTheTangentProjectionOverTheRadiusOnASphere) {
       test::shape_operator_error(test::make_sphere(2, 2.0), test::sphere_shape_operator);
   const double fine =
       test::shape_operator_error(test::make_sphere(6, 2.0), test::sphere_shape_operator);
-  EXPECT_LT(fine, 0.01 * std::sqrt(2.0) / 2);  // one per cent of |P / R|
+  EXPECT_LT(fine, 0.02 * std::sqrt(2.0) / 2);  // two per cent of |P / R|
   EXPECT_LT(fine, coarse / 3);
 }
 
@@ -35,7 +35,7 @@ TEST(RecoveredShapeOperator, HasBothCurvaturesOfATorus) {
   const auto exact = [](const Eigen::Vector3d& x) { return test::torus_shape_operator(x, 2); };
   const double coarse = test::shape_operator_error(torus(6), exact);
   const double fine = test::shape_operator_error(torus(12), exact);
-  EXPECT_LT(fine, 0.02 * 2);  // two per cent of 1 / minor_radius
+  EXPECT_LT(fine, 0.04 * 2);  // four per cent of 1 / minor_radius
   EXPECT_LT(fine, coarse / 2);
 }
 

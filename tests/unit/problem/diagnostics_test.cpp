@@ -32,7 +32,7 @@ class DiagnosticsOfASphere : public ::testing::Test {
 
 TEST_F(DiagnosticsOfASphere, HaveTheEnergiesOfPhaseOne) {
   const auto energy = measured().energy;
-  EXPECT_NEAR(energy.bending, 3 * 8 * pi, 3 * 8 * pi * 1e-5);  // area error of 1442 nodes
+  EXPECT_NEAR(energy.bending, 3 * 8 * pi, 3 * 8 * pi * 5e-5);  // area error of 1442 nodes
   EXPECT_NEAR(energy.gaussian, 0.5 * 4 * pi, 0.5 * 4 * pi * 1e-2);
   EXPECT_FALSE(energy.line.has_value());
   EXPECT_DOUBLE_EQ(energy.total(), energy.bending + energy.gaussian);
@@ -40,8 +40,8 @@ TEST_F(DiagnosticsOfASphere, HaveTheEnergiesOfPhaseOne) {
 
 TEST_F(DiagnosticsOfASphere, GiveConstraintErrorsRelativeToTheirTargets) {
   const auto diagnostics = measured();
-  EXPECT_NEAR(*diagnostics.constraint_errors.volume, 0, 1e-5);
-  EXPECT_NEAR(*diagnostics.constraint_errors.area, 1.0 / 15, 1e-5);
+  EXPECT_NEAR(*diagnostics.constraint_errors.volume, 0, 5e-5);
+  EXPECT_NEAR(*diagnostics.constraint_errors.area, 1.0 / 15, 5e-5);
   EXPECT_FALSE(diagnostics.constraint_errors.phase.has_value());
 }
 

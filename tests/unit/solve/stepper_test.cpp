@@ -81,20 +81,24 @@ TEST(IdaStepper, NeedsFewerFactorisationsWithTheKrylovMode) {
   EXPECT_LT(factorisations(NewtonMode::krylov), factorisations(NewtonMode::direct));
 }
 
+/// The residual of the state over the residual of the same state without rates.
+double relative_residual(const RelaxationCase& c, const problem::State& state) {
+  const double time_unit = problem::scales_of(c.model, c.start).time();
+  const problem::RelaxationProblem problem(c.start.triangulation, c.model, 1);
+  const problem::EquationSettings settings{state.damping,
+                                           SolverOptions{}.constraint_rate / time_unit};
+  const auto y = problem.layout().pack(state.values);
+  const auto rates = problem.layout().pack(state.rates);
+  const double without_rates =
+      problem.residual(settings, state.time, y, Eigen::VectorXd::Zero(y.size())).norm();
+  EXPECT_GT(without_rates, 1);
+  return problem.residual(settings, state.time, y, rates).norm() / without_rates;
+}
+
 TEST(IdaStepper, StartsFromConsistentValues) {
   const auto c = test::table_1_case(2);
-  const SolverOptions options;
-  const auto stepper = stepper_for(c, options);
-  const auto scales = problem::scales_of(c.model, c.start);
-  const problem::RelaxationProblem problem(c.start.triangulation, c.model, 1);
-  const problem::EquationSettings settings{stepper->state().damping,
-                                           options.constraint_rate / scales.time()};
-  const auto y = problem.layout().pack(stepper->state().values);
-  const auto rates = problem.layout().pack(stepper->state().rates);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(y.size());
-  const double without_rates = problem.residual(settings, 0, y, zero).norm();
-  ASSERT_GT(without_rates, 1);
-  EXPECT_LT(problem.residual(settings, 0, y, rates).norm(), 1e-9 * without_rates);
+  const auto stepper = stepper_for(c);
+  EXPECT_LT(relative_residual(c, stepper->state()), 1e-9);
   EXPECT_EQ(stepper->state().values.positions, c.start.values.positions);
   EXPECT_EQ(stepper->state().values.order_parameter, c.start.values.order_parameter);
 }
@@ -106,7 +110,7 @@ TEST(IdaStepper, StaysConsistentWhenTheDampingIsSetBeforeTheFirstStep) {
   stepper->set_damping(10 * stepper->state().damping);
   const auto after = problem::measure(c.model, stepper->state()).velocity;
   EXPECT_LT(after.tangential, 0.5 * before.tangential);  // about alpha^-1
-  EXPECT_NEAR(after.normal, before.normal, 0.1 * before.normal);
+  EXPECT_LT(relative_residual(c, stepper->state()), 1e-9);
 }
 
 /// The case in other units: lengths times `length`, energies times `energy`.
@@ -214,10 +218,11 @@ TEST(IdaStepper, CarriesNoPhaseFieldForOnePhase) {
 
 TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
   auto c = test::table_1_case(2);
-  const auto initial = stepper_for(c);
-  const double volume = problem::measure(c.model, initial->state()).volume;
+  const double volume = c.model.targets.volume->to;
   c.model.targets.volume = model::Ramp{volume, 0.97 * volume, 2e-3, 6e-3};
-  const auto stepper = stepper_for(c);
+  SolverOptions options;
+  options.rtol = 1e-4;
+  const auto stepper = stepper_for(c, options);
   bool met_start = false;
   bool met_end = false;
   while (stepper->state().time < 1e-2) {
