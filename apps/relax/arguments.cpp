@@ -14,8 +14,9 @@ void add_options(CLI::App& app, Arguments& arguments, std::string& rtol, bool& w
   app.set_version_flag("--version", std::string(version()));
   app.add_option("case", arguments.case_file, "case file")->type_name("CASE.toml");
   app.add_option("--set", arguments.overrides,
-                 "set options of the case file, as in --set solver.rtol=1e-4")
-      ->type_name("table.key=value");
+                 "set an option of the case file, as in --set solver.rtol=1e-4; may be repeated")
+      ->type_name("table.key=value")
+      ->allow_extra_args(false);
   app.add_option("--rtol", rtol, "relative tolerance of the time integration: solver.rtol")
       ->type_name("X");
   app.add_option("--out", arguments.directory, "folder of the run: output.directory")

@@ -1,28 +1,19 @@
 #include "vesica/io/case.hpp"
 
 #include <fmt/format.h>
+
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "vesica/core/error.hpp"
+#include "vesica/mesh/quality.hpp"
 #include "vesica/model/make_model.hpp"
 #include "vesica/problem/diagnostics.hpp"
 
 namespace vesica::io {
 namespace {
-
-/// Longest straight distance between two corners of a triangle [length].
-double longest_edge(const mesh::Surface& surface) {
-  double longest = 0;
-  for (const mesh::QuadraticTriangle& triangle : surface.triangulation->triangles()) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const auto a = surface.positions.row(triangle[static_cast<std::size_t>(corner)]);
-      const auto b = surface.positions.row(triangle[static_cast<std::size_t>((corner + 1) % 3)]);
-      longest = std::max(longest, (a - b).norm());
-    }
-  }
-  return longest;
-}
 
 problem::Fields zero_fields(Eigen::Index num_nodes) {
   problem::Fields fields;
@@ -49,7 +40,7 @@ std::vector<std::string> warnings_of(const model::Model& model, const mesh::Surf
   std::vector<std::string> warnings;
   if (!model.is_two_phase) return warnings;
   const model::MaterialOptions& material = model.material;
-  const double edge = longest_edge(surface);
+  const double edge = mesh::longest_edge(*surface.triangulation, surface.positions);
   if (edge > material.interface_width) {
     warnings.push_back(
         fmt::format("the mesh does not resolve the phase interface: longest edge {:.4g} > "
@@ -66,6 +57,38 @@ std::vector<std::string> warnings_of(const model::Model& model, const mesh::Surf
                     contrast, 2 * rigidity));
   }
   return warnings;
+}
+
+/// Whether all nodes have the same distance, to 1e-4 of it, from the centre of the best-fit sphere.
+bool is_sphere(const mesh::Positions& positions) {
+  // |x|^2 = 2 centre . x + rest, linear least squares
+  Eigen::MatrixX4d matrix(positions.rows(), 4);
+  matrix << 2 * positions, Eigen::VectorXd::Ones(positions.rows());
+  const Eigen::VectorXd squares = positions.rowwise().squaredNorm();
+  const Eigen::Vector4d fit = matrix.colPivHouseholderQr().solve(squares);
+  const Eigen::VectorXd distances =
+      (positions.rowwise() - fit.head<3>().transpose()).rowwise().norm();
+  return distances.maxCoeff() - distances.minCoeff() < 1e-4 * distances.maxCoeff();
+}
+
+bool stays_near(const model::Ramp& target, double value) {
+  return std::max(std::abs(target.from - value), std::abs(target.to - value)) < 1e-3 * value;
+}
+
+/// On a sphere the variations of volume and area, 1 and -kappa, are parallel: the two targets are
+/// one. Where the start meets them the area is left free, with a warning; no flow could change one
+/// of them alone.
+void untie_sphere(Case& vesicle, const model::Measures& start) {
+  model::Targets& targets = vesicle.model.targets;
+  if (!targets.volume || !targets.area || !is_sphere(vesicle.start.values.positions)) return;
+  if (!stays_near(*targets.volume, start.volume) || !stays_near(*targets.area, start.area)) {
+    throw ConfigError(
+        "constraints.volume and constraints.area: cannot be met from a sphere, which moves them "
+        "only together: start from another shape, an ellipsoid for example");
+  }
+  targets.area.reset();
+  vesicle.warnings.emplace_back(
+      "volume and area of a sphere are one constraint: constraints.area is left free");
 }
 
 }  // namespace
@@ -94,6 +117,7 @@ Case make_case(const RunConfig& config) {
   }
   vesicle.model.targets = targets;
   vesicle.warnings = warnings_of(vesicle.model, surface);
+  untie_sphere(vesicle, measures);
   return vesicle;
 }
 

@@ -55,7 +55,7 @@ WritableFile::WritableFile(std::filesystem::path path) : path_(std::move(path)) 
 }
 
 hid_t WritableFile::check(hid_t id, const std::string& object, std::string_view call) const {
-  check_status(id < 0 ? -1 : 0, object, call);
+  if (id < 0) check_status(-1, object, call);
   return id;
 }
 

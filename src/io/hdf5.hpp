@@ -71,6 +71,8 @@ class WritableFile {
   void close();
 
  private:
+  /// Returns a valid id in every case, so that its handle can release it; the driver's error is
+  /// left to `check_status`, which every write ends with.
   [[nodiscard]] hid_t check(hid_t id, const std::string& object, std::string_view call) const;
   /// Also throws when the driver has met an error that HDF5 does not know of.
   void check_status(herr_t status, const std::string& object, std::string_view call) const;

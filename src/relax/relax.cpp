@@ -75,12 +75,14 @@ class Run {
     return end;
   }
 
-  /// The state rests: take the constraints to round-off, then look at all criteria once more.
+  /// The state rests: take the constraints to round-off, then look at all criteria once more. When
+  /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
     const auto report = stepper_.finish();
-    if (report.status == solve::StepStatus::failed) return std::nullopt;
-    report_ = report;
-    measure();
+    if (report.status == solve::StepStatus::accepted) {
+      report_ = report;
+      measure();
+    }
     if (!stationarity_.meets_velocity(diagnostics_) ||
         !stationarity_.meets_constraints(diagnostics_)) {
       return std::nullopt;

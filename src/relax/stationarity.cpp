@@ -11,6 +11,14 @@ namespace vesica::relax {
 
 namespace {
 
+/// Multipliers in k/R_c^3 (volume) and k/R_c^2 (area, phase), so that they can be compared.
+std::array<double, 3> in_natural_units(const problem::PerConstraint& multipliers, double radius,
+                                       double rigidity) {
+  const double unit = rigidity / (radius * radius);
+  return {multipliers.volume.value_or(0) * radius / unit, multipliers.area.value_or(0) / unit,
+          multipliers.phase.value_or(0) / unit};
+}
+
 std::array<std::optional<double>, 3> entries(const problem::PerConstraint& values) {
   return {values.volume, values.area, values.phase};
 }
@@ -32,9 +40,8 @@ Stationarity::Stationarity(const StopOptions& options, const model::Model& model
     : options_(options), model_(model) {}
 
 bool Stationarity::is_at_rest(const StepView& view) {
-  const auto& multipliers = view.state.values.multipliers;
-  steps_at_rest_ = multipliers_moved(multipliers) ? 0 : steps_at_rest_ + 1;
-  last_multipliers_ = multipliers;
+  steps_at_rest_ = multipliers_moved(view) ? 0 : steps_at_rest_ + 1;
+  last_multipliers_ = view.state.values.multipliers;
   const long newton = view.report.counts.newton;
   steps_without_newton_ = newton == last_newton_ ? steps_without_newton_ + 1 : 0;
   last_newton_ = newton;
@@ -55,15 +62,17 @@ bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) co
   });
 }
 
-bool Stationarity::multipliers_moved(const problem::PerConstraint& multipliers) const {
+bool Stationarity::multipliers_moved(const StepView& view) const {
   if (!last_multipliers_) return true;
-  const auto now = entries(multipliers);
-  const auto before = entries(*last_multipliers_);
-  double largest = 0;
+  const double radius = characteristic_radius(view.diagnostics);
+  const double rigidity = model_.material.bending_rigidity.phase_1;
+  const auto now = in_natural_units(view.state.values.multipliers, radius, rigidity);
+  const auto before = in_natural_units(*last_multipliers_, radius, rigidity);
+  double largest = 1;
   double change = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    largest = std::max(largest, std::abs(now[i].value_or(0)));
-    change = std::max(change, std::abs(now[i].value_or(0) - before[i].value_or(0)));
+    largest = std::max(largest, std::abs(now[i]));
+    change = std::max(change, std::abs(now[i] - before[i]));
   }
   return change > options_.multiplier_change * largest;
 }

@@ -114,7 +114,8 @@ StepReport SemiImplicitStepper::step(double end_time) {
     const ScopedTimer timer(seconds_.total);
     trouble = try_step(end_time);
   }
-  return report(trouble.empty() ? StepStatus::accepted : StepStatus::failed, std::move(trouble));
+  const auto status = trouble.empty() ? StepStatus::accepted : StepStatus::failed;
+  return report(status, std::move(trouble));
 }
 
 std::string SemiImplicitStepper::try_step(double end_time) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -35,26 +36,24 @@ problem::ConstraintValues constraints_of(const mesh::Surface& surface) {
   return problem.constraints(y, Eigen::VectorXd::Zero(y.size()));
 }
 
-TEST(SphereGeometry, HasVolumeAndAreaOfThirdOrderOrBetter) {
+TEST(SphereGeometry, HasVolumeAndAreaOfFourthOrder) {
   const auto volume = errors([](int resolution) {
     return constraints_of(test::make_sphere(resolution)).value[0] - 4 * pi / 3;
   });
   const auto area = errors([](int resolution) {
     return constraints_of(test::make_sphere(resolution)).value[1] - 4 * pi;
   });
-  std::printf("sphere volume %.2f %.2e area %.2f %.2e\n", volume.order(), volume.fine, area.order(), area.fine);
-  EXPECT_GT(volume.order(), 3.5);
-  EXPECT_GT(area.order(), 3.5);
+  EXPECT_GT(volume.order(), 3.8);
+  EXPECT_GT(area.order(), 3.8);
   EXPECT_LT(std::abs(area.fine), 1e-4);
 }
 
-TEST(EllipsoidGeometry, HasVolumeOfThirdOrderOrBetter) {
+TEST(EllipsoidGeometry, HasVolumeOfFourthOrder) {
   const auto volume = errors([](int resolution) {
     return constraints_of(test::make_ellipsoid(semi_axes, resolution)).value[0] -
            4 * pi / 3 * semi_axes.prod();
   });
-  std::printf("ell volume %.2f %.2e\n", volume.order(), volume.fine);
-  EXPECT_GT(volume.order(), 3.5);
+  EXPECT_GT(volume.order(), 3.8);
 }
 
 TEST(RecoveredShapeOperator, ConvergesOnSphereEllipsoidAndTorus) {
@@ -77,10 +76,9 @@ TEST(RecoveredShapeOperator, ConvergesOnSphereEllipsoidAndTorus) {
         });
       },
       8);
-  std::printf("Q orders %.2f %.2f %.2f  errs %.2e %.2e %.2e\n", sphere.order(), ellipsoid.order(), torus.order(), sphere.fine, ellipsoid.fine, torus.fine);
-  EXPECT_GT(sphere.order(), 1);
-  EXPECT_GT(ellipsoid.order(), 1);
-  EXPECT_GT(torus.order(), 1);
+  EXPECT_GT(sphere.order(), 1.7);  // measured 1.91, 1.90, 1.65
+  EXPECT_GT(ellipsoid.order(), 1.7);
+  EXPECT_GT(torus.order(), 1.5);
 }
 
 /// kappa of equation (b), solved with the rates at the start of a run.
@@ -111,9 +109,8 @@ TEST(MeanCurvature, OfEquationBConvergesOnSphereAndEllipsoid) {
         test::make_ellipsoid(semi_axes, resolution),
         [](const Eigen::Vector3d& x) { return test::ellipsoid_shape_operator(x, semi_axes); });
   });
-  std::printf("kappa orders %.2f %.2f errs %.2e %.2e\n", sphere.order(), ellipsoid.order(), sphere.fine, ellipsoid.fine);
-  EXPECT_GT(sphere.order(), 1);
-  EXPECT_GT(ellipsoid.order(), 1);
+  EXPECT_GT(sphere.order(), 1.4);  // measured 1.61, 2.46
+  EXPECT_GT(ellipsoid.order(), 2);
 }
 
 TEST(BendingEnergy, OfTheSphereTendsToEightPiTimesTheRigidity) {
@@ -122,8 +119,7 @@ TEST(BendingEnergy, OfTheSphereTendsToEightPiTimesTheRigidity) {
     const auto c = test::single_phase_case({state.triangulation, state.values.positions}, 1, 1);
     return problem::measure(c.model, state).energy.bending - 8 * pi;
   });
-  std::printf("energy %.2f %.2e\n", energy.order(), energy.fine);
-  EXPECT_GT(energy.order(), 3);
+  EXPECT_GT(energy.order(), 2.8);  // measured 3.11
 }
 
 /// Dual norms of the residuals of (a) and (b) at the exact sphere, sqrt(sum r_i^2 / m_i) with the
@@ -146,9 +142,8 @@ std::array<double, 2> sphere_residuals(int resolution) {
 TEST(ResidualOfTheExactSphere, FallsWithTheMeshSize) {
   const auto velocity = errors([](int resolution) { return sphere_residuals(resolution)[0]; });
   const auto curvature = errors([](int resolution) { return sphere_residuals(resolution)[1]; });
-  std::printf("res orders %.2f %.2f errs %.2e %.2e\n", velocity.order(), curvature.order(), velocity.fine, curvature.fine);
-  EXPECT_GT(velocity.order(), 1);
-  EXPECT_GT(curvature.order(), 1);
+  EXPECT_GT(velocity.order(), 1.6);  // measured 1.85, 1.96
+  EXPECT_GT(curvature.order(), 1.7);
 }
 
 }  // namespace

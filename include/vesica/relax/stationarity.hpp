@@ -50,8 +50,9 @@ struct StopOptions {
 
 /// The stopping criterion and the limits of a run. A state is an equilibrium when
 ///   ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity,
-///   no multiplier changed by more than multiplier_change, relative to the largest, in any of the
-///   last rest_steps, every relative constraint error is below constraint,
+///   no multiplier, in k/R_c^3 (volume) or k/R_c^2 (area, phase), changed by more than
+///   multiplier_change times the largest (or 1, when all are small) in any of the last rest_steps,
+///   every relative constraint error is below constraint,
 ///   and the last steps_without_newton took no Newton iteration (rule of 3.4; IDA always iterates).
 class Stationarity {
  public:
@@ -65,7 +66,7 @@ class Stationarity {
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
 
  private:
-  [[nodiscard]] bool multipliers_moved(const problem::PerConstraint& multipliers) const;
+  [[nodiscard]] bool multipliers_moved(const StepView& view) const;
 
   StopOptions options_;
   const model::Model& model_;

@@ -131,7 +131,7 @@ TEST(SemiImplicitProblem, TheSlopesOfTheConstraintsAreCloseToDifferences) {
   vesicle.model.targets.phase_difference = model::Ramp::constant(3);
   auto& values = vesicle.start.values;
   values.mean_curvature.setConstant(-2);
-  values.order_parameter = 0.8 * values.positions.col(0);
+  values.order_parameter = 0.8 * values.positions.col(0).array() + 0.1;
   const SemiImplicitProblem problem(sphere.triangulation, vesicle.model,
                                     TangentialVelocity::eliminated, 2);
   const auto solution = normal_displacements(values);

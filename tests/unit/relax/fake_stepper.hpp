@@ -42,7 +42,9 @@ class FakeStepper final : public solve::Stepper {
 
   solve::StepReport finish() override {
     ++finished;
-    return make_report();
+    solve::StepReport report = make_report();
+    if (finish_fails) report.status = solve::StepStatus::failed;
+    return report;
   }
 
   void set_damping(double alpha) override {
@@ -53,6 +55,7 @@ class FakeStepper final : public solve::Stepper {
   std::function<void(long step)> on_step;
   long failing_step = -1;
   int finished = 0;
+  bool finish_fails = false;
   std::vector<double> dampings;
 
  private:

@@ -91,6 +91,14 @@ TEST_F(RelaxTest, ConvergesWhenTheSurfaceRestsAndFinishesTheConstraints) {
   EXPECT_EQ(stepper.finished, 1);
 }
 
+TEST_F(RelaxTest, ConvergesWithoutTheFinalSolveWhenTheConstraintsAreMetAnyway) {
+  FakeStepper stepper([](long) { return 1e-5; });
+  stepper.finish_fails = true;
+  stop_.max_steps = 20;
+  EXPECT_EQ(run(stepper).status, RunStatus::converged);
+  EXPECT_EQ(stepper.finished, 1);
+}
+
 TEST_F(RelaxTest, DoesNotConvergeWhileAConstraintIsViolated) {
   model_.targets.area = model::Ramp::constant(13);  // the fake stays at 4 pi
   stop_.max_steps = 8;

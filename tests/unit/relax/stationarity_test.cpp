@@ -52,6 +52,29 @@ TEST_F(StationarityTest, WantsTheMultipliersAtRestOverTheLastSteps) {
   EXPECT_FALSE(criterion.is_at_rest(view(1e-2, 20.1)));
 }
 
+TEST_F(StationarityTest, TakesChangesOfVanishingMultipliersInNaturalUnits) {
+  options_.rest_steps = 1;
+  Stationarity criterion(options_, model_);
+  const double unit = 1.0 / 8;  // k / R_c^3
+  (void)criterion.is_at_rest(view(1e-4, 1e-5 * unit));
+  EXPECT_TRUE(criterion.is_at_rest(view(1e-4, -1e-5 * unit)));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 2e-3 * unit)));
+}
+
+TEST_F(StationarityTest, CountsTheStepsWithoutNewtonIterations) {
+  options_.rest_steps = 1;
+  options_.steps_without_newton = 2;
+  Stationarity criterion(options_, model_);
+  const auto is_at_rest_after = [&](long newton) {
+    report_.counts.newton = newton;
+    return criterion.is_at_rest(view(1e-4, 20));
+  };
+  EXPECT_FALSE(is_at_rest_after(7));
+  EXPECT_FALSE(is_at_rest_after(7));
+  EXPECT_TRUE(is_at_rest_after(7));
+  EXPECT_FALSE(is_at_rest_after(8));
+}
+
 TEST_F(StationarityTest, DoesNotRestWhileATargetMoves) {
   model_.targets.volume = model::Ramp{1, 2, 0, 10};
   options_.rest_steps = 1;

@@ -98,7 +98,7 @@ double relative_residual(const RelaxationCase& c, const problem::State& state) {
 TEST(IdaStepper, StartsFromConsistentValues) {
   const auto c = test::table_1_case(2);
   const auto stepper = stepper_for(c);
-  EXPECT_LT(relative_residual(c, stepper->state()), 1e-9);
+  EXPECT_LT(relative_residual(c, stepper->state()), 1e-8);
   EXPECT_EQ(stepper->state().values.positions, c.start.values.positions);
   EXPECT_EQ(stepper->state().values.order_parameter, c.start.values.order_parameter);
 }
@@ -110,7 +110,7 @@ TEST(IdaStepper, StaysConsistentWhenTheDampingIsSetBeforeTheFirstStep) {
   stepper->set_damping(10 * stepper->state().damping);
   const auto after = problem::measure(c.model, stepper->state()).velocity;
   EXPECT_LT(after.tangential, 0.5 * before.tangential);  // about alpha^-1
-  EXPECT_LT(relative_residual(c, stepper->state()), 1e-9);
+  EXPECT_LT(relative_residual(c, stepper->state()), 1e-8);
 }
 
 /// The case in other units: lengths times `length`, energies times `energy`.
@@ -222,6 +222,9 @@ TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
   c.model.targets.volume = model::Ramp{volume, 0.97 * volume, 2e-3, 6e-3};
   SolverOptions options;
   options.rtol = 1e-4;
+  // The error test allows displacements of rtol 2 R_c a step, that is 9e-4 of the volume, and the
+  // kinks upset it for a few steps; the target moves by 0.03.
+  constexpr double tolerance = 5e-3;
   const auto stepper = stepper_for(c, options);
   bool met_start = false;
   bool met_end = false;
@@ -231,7 +234,7 @@ TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
     met_start = met_start || state.time == 2e-3;
     met_end = met_end || state.time == 6e-3;
     const auto error = problem::measure(c.model, state).constraint_errors.volume;
-    EXPECT_LT(std::abs(*error), 1e-3) << "t = " << state.time;  // the target moves by 0.03
+    EXPECT_LT(std::abs(*error), tolerance) << "t = " << state.time;
   }
   EXPECT_TRUE(met_start);
   EXPECT_TRUE(met_end);
