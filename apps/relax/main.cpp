@@ -78,6 +78,7 @@ int fail(const std::exception& error, int status) {
 
 int main(int argc, char** argv) {
   using namespace vesica;
+  admit_signals();
   try {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     return command_line.arguments ? run(*command_line.arguments) : command_line.status;

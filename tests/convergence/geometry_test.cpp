@@ -81,10 +81,10 @@ TEST(RecoveredShapeOperator, ConvergesOnSphereEllipsoidAndTorus) {
   EXPECT_GT(torus.order(), 1.5);
 }
 
-/// kappa of equation (b), solved with the rates at the start of a run.
+/// kappa of equation (b), solved with the rates at the start of a run without constraints.
 problem::State consistent_start(const mesh::Surface& surface) {
-  const auto measured = constraints_of(surface);
-  const auto c = test::single_phase_case(surface, measured.value[0], measured.value[1]);
+  auto c = test::single_phase_case(surface, 1, 1);
+  c.model.targets = {};
   return solve::make_stepper({}, c.model, c.start)->state();
 }
 
@@ -109,6 +109,7 @@ TEST(MeanCurvature, OfEquationBConvergesOnSphereAndEllipsoid) {
         test::make_ellipsoid(semi_axes, resolution),
         [](const Eigen::Vector3d& x) { return test::ellipsoid_shape_operator(x, semi_axes); });
   });
+  std::printf("KO %.2f %.2f %.2e %.2e\n",sphere.order(),ellipsoid.order(),sphere.fine,ellipsoid.fine);
   EXPECT_GT(sphere.order(), 1.4);  // measured 1.61, 2.46
   EXPECT_GT(ellipsoid.order(), 2);
 }
@@ -119,6 +120,7 @@ TEST(BendingEnergy, OfTheSphereTendsToEightPiTimesTheRigidity) {
     const auto c = test::single_phase_case({state.triangulation, state.values.positions}, 1, 1);
     return problem::measure(c.model, state).energy.bending - 8 * pi;
   });
+  std::printf("EO %.2f %.2e\n",energy.order(),energy.fine);
   EXPECT_GT(energy.order(), 2.8);  // measured 3.11
 }
 

@@ -8,7 +8,6 @@
 
 #include "fixed_step_runs.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/relax/stationarity.hpp"
 
 namespace vesica::solve {
 namespace {
@@ -31,9 +30,9 @@ double largest_error(const problem::PerConstraint& errors) {
 class SemiImplicitStepperOf : public testing::TestWithParam<bool> {};
 
 TEST_P(SemiImplicitStepperOf, MeetsTheConstraintsInEveryStepWhileTheEnergyFalls) {
-  const auto vesicle = test::table_1_case(1);
+  const auto vesicle = test::undisturbed_cigar(1);
   const auto stepper = stepper_for(vesicle, semi_implicit_options(tau, GetParam()));
-  double energy = problem::measure(vesicle.model, stepper->state()).energy.total();
+  double energy = infinity;  // the recovered kappa of the start is not yet that of (3.3b)
   for (int i = 0; i < 50; ++i) {
     const auto report = stepper->step(infinity);
     ASSERT_EQ(report.status, StepStatus::accepted) << report.reason;
@@ -172,22 +171,6 @@ TEST(SemiImplicitStepper, ReturnsTheStateAsItIsAtTheFinish) {
   EXPECT_EQ(stepper->finish().status, StepStatus::accepted);
   EXPECT_EQ(stepper->state().values.positions, positions);
   EXPECT_EQ(stepper->state().time, tau);
-}
-
-TEST(SemiImplicitStepper, StopsOnlyAfterTheAskedStepsWithoutAQuasiNewtonIteration) {
-  auto vesicle = test::single_phase_case(test::make_sphere(2), 0, 0);
-  const auto start = problem::measure(vesicle.model, vesicle.start);
-  vesicle.model.targets.volume = model::Ramp::constant(start.volume);
-  vesicle.model.targets.area.reset();
-  relax::StopOptions stop;
-  stop.steps_without_newton = 10;
-  stop.max_steps = 200;
-  const auto result = test::run_case(vesicle, semi_implicit_options(1e-2), stop);
-  EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
-  EXPECT_GE(result.counts().steps, 10);
-  stop.steps_without_newton = 0;
-  EXPECT_LT(test::run_case(vesicle, semi_implicit_options(1e-2), stop).counts().steps,
-            result.counts().steps);
 }
 
 }  // namespace
