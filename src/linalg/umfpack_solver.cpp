@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "blas_threads.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/handle.hpp"
 
@@ -64,6 +65,7 @@ class UmfpackSolver final : public DirectSolver {
 
   void factorise(const SparseMatrix& matrix) override {
     numeric_ = NumericHandle();  // the old factors go first: two sets would double the memory
+    const SingleThreadedBlas single_threaded;
     void* numeric = nullptr;
     const auto code = umfpack_dl_numeric(starts_.data(), rows_.data(), matrix.values.data(),
                                          symbolic_.get(), &numeric, control_.data(), nullptr);
@@ -72,6 +74,7 @@ class UmfpackSolver final : public DirectSolver {
   }
 
   void solve(std::span<const double> b, std::span<double> x) const override {
+    const SingleThreadedBlas single_threaded;
     check(umfpack_dl_solve(UMFPACK_A, starts_.data(), rows_.data(), nullptr, x.data(), b.data(),
                            numeric_.get(), control_.data(), nullptr),
           "umfpack_dl_solve");
