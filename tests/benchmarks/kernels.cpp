@@ -1,5 +1,6 @@
-// Prints seconds per residual, Jacobian, factorisation, solve and recovery of Q_h on the cigar of Table 1, with the
-// exponent of their growth in the number of nodes, and the cost of whole relaxations.
+// Prints seconds per residual, Jacobian, factorisation, solve and recovery of Q_h on the cigar of
+// Table 1, with the exponent of their growth in the number of nodes, and the cost of whole
+// relaxations.
 //
 //   benchmark_kernels [M ...]     squares along a cube edge, N = 72 M^2 + 2; default 4 8 14
 
@@ -128,9 +129,7 @@ void time_kernels(int resolution, Table& table) {
   table.add("residual (with Q_h)",
             smallest([&] { (void)problem.residual(settings, 0, y, rates); }));
   auto matrix = problem.make_matrix();
-  table.add("Jacobian", smallest([&] {
-              problem.jacobian(settings, {1, 1000}, y, rates, matrix);
-            }));
+  table.add("Jacobian", smallest([&] { problem.jacobian(settings, {1, 1000}, y, rates, matrix); }));
   for (const auto kind : kinds()) {
     const std::string name(name_of(kind));
     linalg::BorderedSolver solver(kind, matrix, problem.layout().block_size());
@@ -173,14 +172,14 @@ void time_runs(const std::vector<int>& resolutions, const std::vector<double>& n
     const auto after = now();
     cpu.push_back(after.cpu - before.cpu);
     const auto& counts = result.counts();
-    fmt::print("{:>7.0f}{:>7}{:>8}{:>8}{:>8}{:>6}{:>9.2f}{:>9.2f}{:>12.6f}{:>12.5f}  {}\n",
-               nodes[i], counts.steps, counts.newton, counts.krylov, counts.residuals,
-               counts.factorisations, after.wall - before.wall, cpu.back(), result.energy(),
-               result.volume_multiplier(),
-               result.outcome.status == relax::RunStatus::converged ? "converged"
-                                                                    : result.outcome.reason);
+    fmt::print(
+        "{:>7.0f}{:>7}{:>8}{:>8}{:>8}{:>6}{:>9.2f}{:>9.2f}{:>12.6f}{:>12.5f}  {}\n", nodes[i],
+        counts.steps, counts.newton, counts.krylov, counts.residuals, counts.factorisations,
+        after.wall - before.wall, cpu.back(), result.energy(), result.volume_multiplier(),
+        result.outcome.status == relax::RunStatus::converged ? "converged" : result.outcome.reason);
   }
-  if (nodes.size() > 1) fmt::print("exponent of the CPU seconds in N: {:.2f}\n", exponent(nodes, cpu));
+  if (nodes.size() > 1)
+    fmt::print("exponent of the CPU seconds in N: {:.2f}\n", exponent(nodes, cpu));
 }
 
 }  // namespace

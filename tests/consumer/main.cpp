@@ -1,4 +1,5 @@
-// Relaxes a single-phase vesicle of reduced volume 0.9 from an ellipsoid, with the installed headers alone.
+// Relaxes a single-phase vesicle of reduced volume 0.9 from an ellipsoid, with the installed
+// headers alone.
 
 #include <array>
 #include <cstdio>

@@ -18,15 +18,16 @@ struct EquilibriumErrors {
 EquilibriumErrors table_1_errors(int resolution) {
   const auto result = test::run_case(test::table_1_case(resolution));
   EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
-  std::printf("m %d F err %.3e lam err %.3e\n", resolution, result.energy() - test::table_1_energy, result.volume_multiplier() - test::table_1_volume_multiplier);
+  std::printf("m %d F err %.3e lam err %.3e\n", resolution, result.energy() - test::table_1_energy,
+              result.volume_multiplier() - test::table_1_volume_multiplier);
   return {std::abs(result.energy() - test::table_1_energy),
           std::abs(result.volume_multiplier() - test::table_1_volume_multiplier)};
 }
 
 TEST(Table1Convergence, EnergyAndVolumeMultiplierConvergeWithTheMesh) {
-  const auto coarse = table_1_errors(4);   // N = 1154
-  const auto middle = table_1_errors(6);   // N = 2594
-  const auto fine = table_1_errors(8);     // N = 4610
+  const auto coarse = table_1_errors(4);  // N = 1154
+  const auto middle = table_1_errors(6);  // N = 2594
+  const auto fine = table_1_errors(8);    // N = 4610
   EXPECT_LT(middle.energy, coarse.energy);
   EXPECT_LT(fine.energy, middle.energy);
   EXPECT_LT(middle.volume_multiplier, coarse.volume_multiplier);
@@ -59,7 +60,9 @@ TEST(TimeTolerance, DoesNotChangeTheEquilibrium) {
     options.rtol = rtol;
     const auto result = test::run_case(test::table_1_case(2), options, stop);
     ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
-  std::printf("rtol %g steps %ld F diff %.3e lam diff %.3e\n", rtol, result.counts().steps, result.energy() - reference.energy(), result.volume_multiplier() - reference.volume_multiplier());
+    std::printf("rtol %g steps %ld F diff %.3e lam diff %.3e\n", rtol, result.counts().steps,
+                result.energy() - reference.energy(),
+                result.volume_multiplier() - reference.volume_multiplier());
     EXPECT_NEAR(result.energy(), reference.energy(), 1e-5);
     EXPECT_NEAR(result.volume_multiplier(), reference.volume_multiplier(), 1e-2);
     EXPECT_LT(result.counts().steps, more_steps);

@@ -52,8 +52,7 @@ TEST(RecoveredShapeOperator, TurnsWithTheSurfaceAndIgnoresWhereItIs) {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   auto moved = surface;
-  moved.positions =
-      (surface.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
+  moved.positions = (surface.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
   const auto q = test::recovered(surface);
   const auto q_moved = test::recovered(moved);
   ASSERT_GT(test::tensor(q, 0).norm(), 0.1);

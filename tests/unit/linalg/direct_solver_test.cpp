@@ -112,8 +112,9 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DirectSolverTest, ::testing::Values(DirectSolver
 
 TEST(DirectSolver, IsRefusedWhenThisBuildLeavesItOut) {
   std::mt19937 engine(4);
-  EXPECT_THROW((void)make_direct_solver(DirectSolverKind::umfpack, random_block_matrix(5, engine), 5),
-               ConfigError);
+  EXPECT_THROW(
+      (void)make_direct_solver(DirectSolverKind::umfpack, random_block_matrix(5, engine), 5),
+      ConfigError);
 }
 #else
 INSTANTIATE_TEST_SUITE_P(Kinds, DirectSolverTest,

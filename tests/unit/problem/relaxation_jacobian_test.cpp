@@ -22,9 +22,8 @@ struct Differences {
   Eigen::MatrixXd rate;
 };
 
-Eigen::MatrixXd differences(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residual,
-    const Eigen::VectorXd& at) {
+Eigen::MatrixXd differences(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residual,
+                            const Eigen::VectorXd& at) {
   constexpr double h = 1e-5;
   Eigen::MatrixXd result(at.size(), at.size());
   for (Eigen::Index k = 0; k < at.size(); ++k) {
@@ -38,9 +37,9 @@ Eigen::MatrixXd differences(
 }
 
 Differences differences(const EquationCase& c, const Residual& residual) {
-  return {differences([&](const Eigen::VectorXd& y) { return residual(y, c.y_rate); }, c.y),
-          differences([&](const Eigen::VectorXd& y_rate) { return residual(c.y, y_rate); },
-                      c.y_rate)};
+  return {
+      differences([&](const Eigen::VectorXd& y) { return residual(y, c.y_rate); }, c.y),
+      differences([&](const Eigen::VectorXd& y_rate) { return residual(c.y, y_rate); }, c.y_rate)};
 }
 
 /// The matrix that `jacobian` promises: unknowns without a time derivative enter with dF/dy.
@@ -74,7 +73,9 @@ std::vector<Eigen::Index> indices(const EquationCase& c, Group group) {
   std::vector<Eigen::Index> result;
   for (Eigen::Index k = 0; k < layout.size(); ++k) {
     const auto component = k % layout.block_size();
-    Group found = component < 3 ? Group::position : component == 3 ? Group::curvature : Group::phase;
+    Group found = component < 3    ? Group::position
+                  : component == 3 ? Group::curvature
+                                   : Group::phase;
     if (k >= layout.num_nodal()) found = Group::multiplier;
     if (found == group) result.push_back(k);
   }
@@ -138,8 +139,7 @@ void compare_block(const EquationCase& c, const Eigen::MatrixXd& jacobian,
 /// Whether the block is exact although Q_h is not differentiated: only (a) and (d) hold Q_h, and it
 /// depends on x alone.
 bool is_free_of_the_surrogate(Group equation, Group unknown) {
-  return unknown != Group::position ||
-         (equation != Group::curvature && equation != Group::phase);
+  return unknown != Group::position || (equation != Group::curvature && equation != Group::phase);
 }
 
 const std::array<JacobianWeights, 4> shifts{{{1, 0.1}, {1, 10}, {1, 1e4}, {0, 1}}};

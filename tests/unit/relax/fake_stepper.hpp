@@ -59,9 +59,7 @@ class FakeStepper final : public solve::Stepper {
   std::vector<double> dampings;
 
  private:
-  void move() {
-    state_.rates.positions = speed_(counts_.steps) * state_.values.positions;
-  }
+  void move() { state_.rates.positions = speed_(counts_.steps) * state_.values.positions; }
 
   [[nodiscard]] solve::StepReport make_report() const {
     solve::StepReport report;

@@ -125,8 +125,7 @@ RelaxationCase in_units(const RelaxationCase& c, double length, double energy) {
   auto& targets = result.model.targets;
   targets.volume = model::Ramp::constant(targets.volume->to * length * length * length);
   targets.area = model::Ramp::constant(targets.area->to * length * length);
-  targets.phase_difference =
-      model::Ramp::constant(targets.phase_difference->to * length * length);
+  targets.phase_difference = model::Ramp::constant(targets.phase_difference->to * length * length);
   return result;
 }
 
