@@ -44,6 +44,11 @@ endfunction()
 
 vesica_compile_options(vesica)
 
+# Parsing Eigen, fmt and the standard library is most of the work of a small source file.
+set(vesica_common_headers
+    <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <memory> <optional> <span> <string> <vector>)
+target_precompile_headers(vesica PRIVATE ${vesica_common_headers})
+
 # Adds the sources of the current folder to the library; further arguments are files to leave out.
 function(vesica_add_module)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
@@ -74,6 +79,7 @@ function(vesica_add_tests name folder label)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE vesica_test_support GTest::gtest_main)
   vesica_compile_options(${name})
+  target_precompile_headers(${name} REUSE_FROM vesica_test_headers)
   set(common DISCOVERY_MODE PRE_TEST WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
   gtest_discover_tests(
     ${name} ${common} TEST_FILTER "-Slow*:*/Slow*" PROPERTIES LABELS ${label} TIMEOUT 300)
