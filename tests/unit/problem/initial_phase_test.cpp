@@ -161,7 +161,7 @@ TEST(InitialPhase, FromAFileIsTakenAsItStands) {
   const auto surface = unit_sphere(1);
   std::string text = "# order parameter\n\n";
   for (Eigen::Index i = 0; i < surface.positions.rows(); ++i) {
-    text += " " + std::to_string(i % 2 == 0 ? 1.02 : -0.25) + "\t# node\r\n";
+    text += i % 2 == 0 ? " 1.02\t# node\r\n" : " -0.25\t# node\r\n";
   }
   const PhaseFile file(text);
   auto options = of_kind(PhaseKind::file);
