@@ -92,7 +92,7 @@ void expect_sphere_at_rest(bool holds_volume, bool holds_area) {
   if (holds_area) c.model.targets.area = model::Ramp::constant(start.area);
   const auto result = test::run_case(c);
   EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
-  const auto& moved = result.state.values.positions - c.start.values.positions;
+  const mesh::Positions moved = result.state.values.positions - c.start.values.positions;
   EXPECT_LT(moved.rowwise().norm().maxCoeff(), 1e-2);   // h^3 = 6e-3
   EXPECT_NEAR(result.energy(), 8 * pi, 1e-3 * 8 * pi);  // 362 nodes: h^2 / 30
   EXPECT_LE(result.counts().steps, 60);
