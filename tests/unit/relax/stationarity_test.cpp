@@ -20,7 +20,7 @@ class StationarityTest : public ::testing::Test {
   StepView view(double velocity, double multiplier) {
     diagnostics_.velocity.normal_rigid_free = velocity;
     diagnostics_.velocity.normal = 1;  // the plain one does not count
-    state_.values.multipliers = {multiplier, 0.1, std::nullopt};
+    state_.values.multipliers = {multiplier, 0.0, std::nullopt};
     return {state_, report_, diagnostics_};
   }
 
