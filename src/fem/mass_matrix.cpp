@@ -1,4 +1,4 @@
-#include "mass_matrix.hpp"
+#include "vesica/fem/mass_matrix.hpp"
 
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"

@@ -5,9 +5,11 @@
 #include <tuple>
 
 #include "point_equations.hpp"
+#include "rigid_modes.hpp"
 #include "surface_integral.hpp"
 #include "vesica/fem/recovery.hpp"
 #include "vesica/mesh/quality.hpp"
+#include "vesica/problem/normal_graph.hpp"
 
 namespace vesica::problem {
 
@@ -73,33 +75,12 @@ Integrals integrate(const model::Model& model, const State& state) {
   return sum;
 }
 
-using RigidModes = Eigen::Matrix<double, 6, 1>;
-
-/// nu and x cross nu: normal velocities of the translations and rotations about `centre`.
-RigidModes rigid_modes(const Vec3<double>& x, const Vec3<double>& centre,
-                       const Vec3<double>& normal) {
-  const auto moment = cross(x - centre, normal);
-  RigidModes modes;
-  modes << normal.x, normal.y, normal.z, moment.x, moment.y, moment.z;
-  return modes;
-}
-
-Vec3<double> centroid(const State& state) {
-  Vec3<double> sum;
-  double area = 0;
-  for_each_point(state, [&](const SurfaceSample& sample) {
-    sum = sum + sample.weight * vector_at(state.values.positions, sample);
-    area += sample.weight;
-  });
-  return (1 / area) * sum;
-}
-
 /// ||v_nu|| and ||v_tau||, and ||v_nu|| after the least-squares rigid motion is removed; modes that
 /// do not move the shape (rotations of a sphere) are left out.
 VelocityNorms velocity_norms(const State& state) {
   if (state.rates.positions.rows() == 0) return {};
-  const auto centre = centroid(state);
-  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+  const auto centre = centroid(*state.triangulation, state.values.positions);
+  RigidGram gram = RigidGram::Zero();
   RigidModes projection = RigidModes::Zero();
   double normal_squared = 0;
   double tangential_squared = 0;
@@ -113,7 +94,7 @@ VelocityNorms velocity_norms(const State& state) {
     normal_squared += sample.weight * normal * normal;
     tangential_squared += sample.weight * (dot(velocity, velocity) - normal * normal);
   });
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
+  const Eigen::SelfAdjointEigenSolver<RigidGram> eigen(gram);
   RigidModes coefficients = eigen.eigenvectors().transpose() * projection;
   for (int i = 0; i < 6; ++i) {
     const double value = eigen.eigenvalues()[i];
@@ -169,18 +150,7 @@ Diagnostics measure(const model::Model& model, const State& state) {
 NodalFields nodal_fields(const model::Model& model, const State& state) {
   const auto n = state.triangulation->num_nodes();
   NodalFields fields;
-  fields.normals = mesh::Positions::Zero(n, 3);
-  for_each_point(state, [&](const SurfaceSample& sample) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      // the constant part of the test function: corner and mid-edge functions alike count with
-      // their modulus
-      const double weight = sample.weight * sample.shape.value[i] * sample.shape.value[i];
-      const auto& normal = sample.frame.normal;
-      fields.normals.row(sample.triangle[i]) +=
-          weight * Eigen::RowVector3d(normal.x, normal.y, normal.z);
-    }
-  });
-  fields.normals.rowwise().normalize();
+  fields.normals = nodal_normals(*state.triangulation, state.values.positions);
   fields.normal_velocity = Eigen::VectorXd::Zero(n);
   if (state.rates.positions.rows() == n) {
     fields.normal_velocity = state.rates.positions.cwiseProduct(fields.normals).rowwise().sum();

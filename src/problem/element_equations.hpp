@@ -6,6 +6,7 @@
 #include "constraint_kernel.hpp"
 #include "point_equations.hpp"
 #include "vesica/core/dual.hpp"
+#include "vesica/fem/block_assembly.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/recovery.hpp"
 #include "vesica/problem/relaxation_problem.hpp"
@@ -186,13 +187,9 @@ PointJacobian<Block> point_jacobian(const PointOutputs<PointDual>& out,
   return jacobian;
 }
 
-/// Element Jacobian, row i Block + r, column j Block + l.
-template <int Block>
-using ElementMatrix = std::array<std::array<double, 6 * Block>, 6 * Block>;
-
 template <int Block>
 void add_element_jacobian(const EquationContext& context, const JacobianWeights& weights,
-                          const ElementValues& element, ElementMatrix<Block>& matrix) {
+                          const ElementValues& element, fem::ElementMatrix<Block>& matrix) {
   for (const auto& point : fem::triangle_rule()) {
     const auto& shape = point.shape;
     const auto in = dual_inputs(point_inputs(element, shape));

@@ -8,6 +8,7 @@
 #include "element_equations.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"
+#include "vesica/fem/block_assembly.hpp"
 #include "vesica/fem/recovery.hpp"
 
 namespace vesica::problem {
@@ -154,43 +155,16 @@ template <int Block>
 void RelaxationProblem::assemble_block(const EquationContext& context,
                                        const JacobianWeights& weights,
                                        linalg::SparseMatrix& matrix) const {
-  constexpr std::size_t entries = Block * Block;
-  // blocks (triangle, column node, row node), each column by column
-  std::vector<double> blocks(at(triangulation_->num_triangles()) * 36 * entries);
+  std::vector<double> blocks(at(triangulation_->num_triangles()) * 36 * Block * Block);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      ElementMatrix<Block> local{};
+      fem::ElementMatrix<Block> local{};
       add_element_jacobian<Block>(
           context, weights, element_values(context, triangulation_->triangles()[at(t)]), local);
-      double* out = &blocks[at(t) * 36 * entries];
-      for (std::size_t j = 0; j < 6; ++j) {
-        for (std::size_t i = 0; i < 6; ++i) {
-          for (std::size_t column = 0; column < Block; ++column) {
-            for (std::size_t row = 0; row < Block; ++row)
-              *out++ = local[i * Block + row][j * Block + column];
-          }
-        }
-      }
+      fem::store_blocks<Block>(local, &blocks[at(t) * 36 * Block * Block]);
     }
   });
-  parallel_for(graph_.num_nodes(), threads_, [&](int begin, int end) {
-    for (int node = begin; node < end; ++node) {
-      const auto count = graph_.neighbours(node).size();
-      for (std::size_t q = 0; q < count; ++q) {
-        std::array<double, entries> sum{};
-        for (const auto code :
-             graph_.contributions(graph_.first_pair(node) + static_cast<std::int64_t>(q))) {
-          const double* block = &blocks[at(code) * entries];
-          for (std::size_t k = 0; k < entries; ++k) sum[k] += block[k];
-        }
-        for (std::size_t column = 0; column < Block; ++column) {
-          const auto start = at(matrix.column_starts[at(node) * Block + column]) + q * Block;
-          for (std::size_t row = 0; row < Block; ++row)
-            matrix.values[start + row] = sum[column * Block + row];
-        }
-      }
-    }
-  });
+  fem::gather_blocks<Block>(graph_, blocks, threads_, matrix);
 }
 
 template <int Block>

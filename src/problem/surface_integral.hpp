@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
 #include "vesica/problem/state.hpp"
@@ -16,16 +18,21 @@ struct SurfaceSample {
 
 /// Calls visit(sample) at all quadrature points, triangle by triangle.
 template <class Visit>
-void for_each_point(const State& state, Visit&& visit) {
-  for (const auto& triangle : state.triangulation->triangles()) {
+void for_each_point(const mesh::Triangulation& triangulation, const mesh::Positions& positions,
+                    Visit&& visit) {
+  for (const auto& triangle : triangulation.triangles()) {
     for (const auto& point : fem::triangle_rule()) {
-      const auto& positions = state.values.positions;
       const auto frame =
           fem::tangent_frame(fem::to_vec3(fem::combine<3>(positions, triangle, point.shape.du)),
                              fem::to_vec3(fem::combine<3>(positions, triangle, point.shape.dv)));
       visit(SurfaceSample{triangle, point.shape, frame, point.weight * frame.area_element});
     }
   }
+}
+
+template <class Visit>
+void for_each_point(const State& state, Visit&& visit) {
+  for_each_point(*state.triangulation, state.values.positions, std::forward<Visit>(visit));
 }
 
 /// Value of a nodal scalar at a sample.

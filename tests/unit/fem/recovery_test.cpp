@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "fem/mass_matrix.hpp"
+#include "vesica/fem/mass_matrix.hpp"
 #include "nodal_shape_operators.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vesica/core/parallel.hpp"
+#include "vesica/fem/node_graph.hpp"
+
+namespace vesica::fem {
+
+/// Dense matrix of an element with `Block` unknowns a node: row i Block + r, column j Block + l.
+template <int Block>
+using ElementMatrix = std::array<std::array<double, 6 * Block>, 6 * Block>;
+
+/// Writes an element matrix as blocks (column node, row node), each column by column.
+template <int Block>
+void store_blocks(const ElementMatrix<Block>& local, double* out) {
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t column = 0; column < Block; ++column) {
+        for (std::size_t row = 0; row < Block; ++row)
+          *out++ = local[i * Block + row][j * Block + column];
+      }
+    }
+  }
+}
+
+/// Sums the stored element matrices of all triangles into a matrix from
+/// `graph.block_pattern(Block)`.
+template <int Block>
+void gather_blocks(const NodeGraph& graph, const std::vector<double>& blocks, int threads,
+                   linalg::SparseMatrix& matrix) {
+  constexpr std::size_t entries = Block * Block;
+  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
+    for (int node = begin; node < end; ++node) {
+      const auto count = graph.neighbours(node).size();
+      for (std::size_t q = 0; q < count; ++q) {
+        std::array<double, entries> sum{};
+        for (const auto code :
+             graph.contributions(graph.first_pair(node) + static_cast<std::int64_t>(q))) {
+          const double* block = &blocks[static_cast<std::size_t>(code) * entries];
+          for (std::size_t k = 0; k < entries; ++k) sum[k] += block[k];
+        }
+        for (std::size_t column = 0; column < Block; ++column) {
+          const auto first = static_cast<std::size_t>(node) * Block + column;
+          const auto start = static_cast<std::size_t>(matrix.column_starts[first]) + q * Block;
+          for (std::size_t row = 0; row < Block; ++row)
+            matrix.values[start + row] = sum[column * Block + row];
+        }
+      }
+    }
+  });
+}
+
+}  // namespace vesica::fem

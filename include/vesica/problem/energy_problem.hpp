@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+
+#include "vesica/fem/node_graph.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/state.hpp"
+
+namespace vesica::problem {
+
+/// Arguments of the discrete energy, or derivatives of it with respect to them.
+struct EnergyFields {
+  mesh::Positions positions;        ///< x, shape (N, 3) [length]
+  mesh::Positions moment;           ///< p = -k_kappa (kappa - kappa_s) nu, (N, 3) [energy/length]
+  Eigen::VectorXd order_parameter;  ///< c, shape (N), or (0) for a single-phase vesicle
+};
+
+/// Rates that the gradient flow adds to the derivative of the energy; empty: none.
+struct EnergyRates {
+  mesh::Positions velocity;         ///< x', shape (N, 3)
+  Eigen::VectorXd order_parameter;  ///< c', shape (N)
+};
+
+/// Weights of volume, area and phase difference in the Lagrangian E + sum lambda_i C_i, signs as in
+/// (1.7a).
+using Multipliers = std::array<double, model::num_constraints>;
+
+/// Values and exact gradients of volume, area and phase difference (0 for a single phase).
+struct ConstraintEvaluation {
+  std::array<double, model::num_constraints> values{};
+  std::array<mesh::Positions, model::num_constraints> positions;
+  Eigen::VectorXd order_parameter;  ///< of the phase difference; the others do not depend on c
+};
+
+/// How the Jacobian of the flow is weighted: value * d/dy + rate * d/dy'.
+struct JacobianWeights;
+
+/// One discrete energy of the membrane, the dual mixed form with the bending moment p as third
+/// field:
+///
+///   E_h(x, p, c) = int grad x : grad p + kappa_s(c) nu . p - |p|^2 / (2 k_kappa(c))
+///                + int sigma (eps/2 |grad c|^2 + psi(c) / eps)  +  sum_i k_g(c_i) G_i(x)
+///
+/// E_h(x, c) is its maximum over p, so its derivative is the partial one at the maximiser. G_i =
+/// int phi_i dK is the distributional Gauss curvature: curvature inside the elements, geodesic
+/// curvature of their edges and angles at their corners; sum_i G_i = 2 pi chi is used exactly. All
+/// terms are sums over elements. Methods throw RecoverableError when an element is degenerate.
+class EnergyProblem {
+ public:
+  /// `threads` as for parallel_for; 0 takes all cores.
+  EnergyProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
+                int threads);
+
+  [[nodiscard]] const model::Model& model() const { return model_; }
+  [[nodiscard]] const mesh::Triangulation& triangulation() const { return *triangulation_; }
+  [[nodiscard]] const fem::NodeGraph& graph() const { return graph_; }
+
+  /// The maximiser p: one solve with the mass matrix weighted by 1/k_kappa.
+  [[nodiscard]] mesh::Positions moment(const mesh::Positions& positions,
+                                       const Eigen::VectorXd& order_parameter) const;
+  /// Fields with p at its maximum.
+  [[nodiscard]] EnergyFields fields(const mesh::Positions& positions,
+                                    const Eigen::VectorXd& order_parameter) const;
+  [[nodiscard]] EnergyParts energy(const EnergyFields& fields) const;
+  /// Derivative of E_h + sum lambda_i C_i with respect to the nodal values of x, p and c. With
+  /// rates also the two terms of the gradient flow: int (x'.nu) nu . xi and eps omega int c' phi.
+  [[nodiscard]] EnergyFields gradient(const EnergyFields& fields, const Multipliers& multipliers,
+                                      const EnergyRates& rates = {}) const;
+  /// The derivative of `gradient` for moves of the nodes along `directions`, shape (N, 3): block
+  /// (node, node) of a matrix from `graph().block_pattern(4 or 5)`, unknowns of a node in the order
+  /// p, displacement, c. Symmetric for weights {1, 0}. Unknowns p always count with weight 1.
+  void hessian(const EnergyFields& fields, const Multipliers& multipliers, const EnergyRates& rates,
+               const mesh::Positions& directions, const JacobianWeights& weights,
+               linalg::SparseMatrix& matrix) const;
+  [[nodiscard]] ConstraintEvaluation constraints(const mesh::Positions& positions,
+                                                 const Eigen::VectorXd& order_parameter) const;
+
+ private:
+  [[nodiscard]] bool has_gaussian_term() const;
+  template <int Block>
+  void assemble_hessian(const EnergyFields& fields, const Multipliers& multipliers,
+                        const EnergyRates& rates, const mesh::Positions& directions,
+                        const JacobianWeights& weights, linalg::SparseMatrix& matrix) const;
+
+  std::shared_ptr<const mesh::Triangulation> triangulation_;
+  model::Model model_;
+  fem::NodeGraph graph_;
+  Eigen::VectorXd vertex_angles_;  // 2 pi over the number of elements at a vertex, 0 at mid-edges
+  int threads_;
+};
+
+}  // namespace vesica::problem

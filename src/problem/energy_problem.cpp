@@ -1,0 +1,238 @@
+#include "vesica/problem/energy_problem.hpp"
+
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "energy_element.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/core/parallel.hpp"
+#include "vesica/fem/mass_matrix.hpp"
+
+namespace vesica::problem {
+
+namespace {
+
+constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+Eigen::VectorXd angles_per_element(const mesh::Triangulation& triangulation,
+                                   const fem::NodeGraph& graph) {
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(triangulation.num_nodes());
+  for (const auto& triangle : triangulation.triangles()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      angles[triangle[i]] =
+          2 * std::numbers::pi / static_cast<double>(graph.incidences(triangle[i]).size());
+    }
+  }
+  return angles;
+}
+
+/// Sums entries of shape (T, 6, count) over the elements of each node, shape (N, count).
+Eigen::MatrixXd gather(const fem::NodeGraph& graph, const std::vector<double>& local,
+                       std::size_t count, int threads) {
+  Eigen::MatrixXd result(graph.num_nodes(), static_cast<Eigen::Index>(count));
+  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
+    for (int node = begin; node < end; ++node) {
+      for (std::size_t k = 0; k < count; ++k) {
+        double sum = 0;
+        for (const auto code : graph.incidences(node)) sum += local[at(code) * count + k];
+        result(node, static_cast<Eigen::Index>(k)) = sum;
+      }
+    }
+  });
+  return result;
+}
+
+void add(const Vec3<double>& a, double* out) {
+  out[0] += a.x;
+  out[1] += a.y;
+  out[2] += a.z;
+}
+
+/// sum over the three derivatives of an integrand times those of the shape function of node i.
+template <class V>
+V test_with(const fem::ShapeValues& shape, std::size_t i, const V& value, const V& du,
+            const V& dv) {
+  return shape.value[i] * value + shape.du[i] * du + shape.dv[i] * dv;
+}
+
+/// Adds the derivative at the nodes of one element to `local`, shape (6, 7): x, p, c.
+void add_element_gradient(const model::Model& model, const Multipliers& multipliers,
+                          const EnergyElement& element, double* local) {
+  for (const auto& point : fem::triangle_rule()) {
+    const auto& shape = point.shape;
+    const auto in = energy_point(element, shape);
+    auto out = energy_point_gradient(model, multipliers, in);
+    add_flow_terms(model, interpolate_nodes(element.velocity, shape.value),
+                   interpolate_nodes(element.c_rate, shape.value), in, out);
+    for (std::size_t i = 0; i < 6; ++i) {
+      double* row = local + 7 * i;
+      add(point.weight * test_with(shape, i, out.x, out.x_u, out.x_v), row);
+      add(point.weight * test_with(shape, i, out.p, out.p_u, out.p_v), row + 3);
+      row[6] += point.weight * test_with(shape, i, out.c, out.c_u, out.c_v);
+    }
+  }
+}
+
+void add_gaussian_gradient(const model::Model& model, const EnergyElement& element, double* local) {
+  constexpr auto second = fem::shape_second_derivatives();
+  const auto s = gaussian_weights(model, element);
+  std::array<double, 6> by_weight = element.vertex_angle;
+  for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
+    const auto g = term(gaussian_point(element, s, shape)).gradient;
+    for (std::size_t i = 0; i < 6; ++i) {
+      add(weight * (shape.du[i] * g.x_u + shape.dv[i] * g.x_v + second.duu[i] * g.x_uu +
+                    second.duv[i] * g.x_uv + second.dvv[i] * g.x_vv),
+          local + 7 * i);
+      by_weight[i] += weight * shape.value[i] * g.s;
+    }
+  });
+  for (std::size_t i = 0; i < 6; ++i)
+    local[7 * i + 6] += by_weight[i] * gaussian_weight_derivative(model, element.c[i]);
+}
+
+double gaussian_energy(const model::Model& model, const EnergyElement& element) {
+  const auto s = gaussian_weights(model, element);
+  double sum = 0;
+  for (std::size_t i = 0; i < 6; ++i) sum += s[i] * element.vertex_angle[i];
+  for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
+    sum += weight * term(gaussian_point(element, s, shape)).value;
+  });
+  return sum;
+}
+
+void check_finite(bool is_finite, std::string_view what) {
+  if (!is_finite)
+    throw RecoverableError(fmt::format("{} of the discrete energy is not finite", what));
+}
+
+}  // namespace
+
+EnergyProblem::EnergyProblem(std::shared_ptr<const mesh::Triangulation> triangulation,
+                             model::Model model, int threads)
+    : triangulation_(std::move(triangulation)),
+      model_(std::move(model)),
+      graph_(*triangulation_),
+      vertex_angles_(angles_per_element(*triangulation_, graph_)),
+      threads_(resolved_threads(threads)) {}
+
+bool EnergyProblem::has_gaussian_term() const {
+  return model_.is_two_phase && model_.material.gaussian_rigidity.difference() != 0;
+}
+
+mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
+                                      const Eigen::VectorXd& order_parameter) const {
+  const EnergyFields fields{positions, {}, order_parameter};
+  const auto count = at(triangulation_->num_triangles());
+  std::vector<double> mass(count * 36, 0.0);
+  std::vector<double> rhs(count * 18, 0.0);
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
+      for (const auto& point : fem::triangle_rule()) {
+        const auto& shape = point.shape;
+        const auto in = energy_point(element, shape);
+        const auto out = energy_point_gradient(model_, {}, in);  // at p = 0
+        const double density = point.weight * norm(cross(in.x_u, in.x_v)) /
+                               model::interpolate(model_.material.bending_rigidity, in.c);
+        for (std::size_t i = 0; i < 6; ++i) {
+          add(point.weight * test_with(shape, i, out.p, out.p_u, out.p_v),
+              &rhs[at(t) * 18 + 3 * i]);
+          for (std::size_t j = 0; j < 6; ++j)
+            mass[at(t) * 36 + 6 * i + j] += density * shape.value[i] * shape.value[j];
+        }
+      }
+    }
+  });
+  return fem::solve_mass_matrix(fem::gather_mass_matrix(graph_, mass, threads_),
+                                gather(graph_, rhs, 3, threads_));
+}
+
+EnergyFields EnergyProblem::fields(const mesh::Positions& positions,
+                                   const Eigen::VectorXd& order_parameter) const {
+  return {positions, moment(positions, order_parameter), order_parameter};
+}
+
+EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
+  const auto count = at(triangulation_->num_triangles());
+  std::vector<std::array<double, 3>> parts(count);
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto& triangle = triangulation_->triangles()[at(t)];
+      auto element = energy_element(fields, {}, triangle);
+      for (const auto& point : fem::triangle_rule()) {
+        const auto density = energy_densities(model_, energy_point(element, point.shape));
+        parts[at(t)][0] += point.weight * density.bending;
+        parts[at(t)][2] += point.weight * density.line;
+      }
+      if (!has_gaussian_term()) continue;
+      for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
+      parts[at(t)][1] = gaussian_energy(model_, element);
+    }
+  });
+  EnergyParts sum;
+  double line = 0;
+  for (const auto& part : parts) {
+    sum.bending += part[0];
+    sum.gaussian += part[1];
+    line += part[2];
+  }
+  const auto& k_g = model_.material.gaussian_rigidity;
+  const double mean = model_.is_two_phase ? 0.5 * (k_g.phase_1 + k_g.phase_2) : k_g.phase_1;
+  sum.gaussian += mean * 2 * std::numbers::pi * triangulation_->euler_characteristic();
+  if (model_.is_two_phase) sum.line = line;
+  check_finite(std::isfinite(sum.total()), "the value");
+  return sum;
+}
+
+EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,
+                                     const EnergyRates& rates) const {
+  std::vector<double> local(at(triangulation_->num_triangles()) * 42, 0.0);
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto& triangle = triangulation_->triangles()[at(t)];
+      auto element = energy_element(fields, rates, triangle);
+      add_element_gradient(model_, multipliers, element, &local[at(t) * 42]);
+      if (!has_gaussian_term()) continue;
+      for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
+      add_gaussian_gradient(model_, element, &local[at(t) * 42]);
+    }
+  });
+  const Eigen::MatrixXd sums = gather(graph_, local, 7, threads_);
+  check_finite(sums.allFinite(), "the gradient");
+  EnergyFields result{sums.leftCols<3>(), sums.middleCols<3>(3), {}};
+  if (model_.is_two_phase) result.order_parameter = sums.col(6);
+  return result;
+}
+
+ConstraintEvaluation EnergyProblem::constraints(const mesh::Positions& positions,
+                                                const Eigen::VectorXd& order_parameter) const {
+  const EnergyFields fields{positions, {}, order_parameter};
+  const auto count = at(triangulation_->num_triangles());
+  std::vector<double> local(count * 60, 0.0);
+  std::vector<std::array<double, 3>> values(count);
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
+      const ElementNodes<double> nodes{element.x, element.c};
+      values[at(t)] = element_constraint_values(nodes, model_.is_two_phase);
+      const auto gradients = element_constraint_gradients(nodes, model_.is_two_phase);
+      for (std::size_t i = 0; i < 6; ++i) {
+        double* row = &local[at(t) * 60 + 10 * i];
+        for (std::size_t k = 0; k < 3; ++k) add(gradients.dx[k][i], row + 3 * k);
+        row[9] = gradients.dc[i];
+      }
+    }
+  });
+  const Eigen::MatrixXd sums = gather(graph_, local, 10, threads_);
+  ConstraintEvaluation result;
+  for (const auto& value : values) {
+    for (std::size_t k = 0; k < 3; ++k) result.values[k] += value[k];
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    result.positions[k] = sums.middleCols<3>(static_cast<Eigen::Index>(3 * k));
+  if (model_.is_two_phase) result.order_parameter = sums.col(9);
+  return result;
+}
+
+}  // namespace vesica::problem
