@@ -14,6 +14,8 @@ if(NOT TARGET OpenMP::OpenMP_C)
 endif()
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS generic ida nvecserial sunlinsolspgmr)
 
+find_package(Ceres 2.1 REQUIRED)
+
 set(suitesparse_components KLU AMD COLAMD BTF)
 if(VESICA_WITH_UMFPACK)
   list(APPEND suitesparse_components UMFPACK CHOLMOD)
@@ -35,6 +37,7 @@ target_link_libraries(
             SUNDIALS::ida
             SUNDIALS::nvecserial
             SUNDIALS::sunlinsolspgmr
+            Ceres::ceres
             HDF5::HDF5)
 foreach(component IN LISTS suitesparse_components)
   target_link_libraries(vesica_private INTERFACE SuiteSparse::${component})

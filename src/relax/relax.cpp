@@ -49,6 +49,7 @@ class Run {
 
   void measure() {
     diagnostics_ = problem::measure(model_, stepper_.state());
+    if (const auto energy = stepper_.energy()) diagnostics_.energy = *energy;
     outcome_.smallest_quality = std::min(outcome_.smallest_quality, diagnostics_.quality);
   }
 
@@ -83,9 +84,13 @@ class Run {
       report_ = report;
       measure();
     }
-    if (!stationarity_.meets_velocity(diagnostics_) ||
-        !stationarity_.meets_constraints(diagnostics_)) {
+    if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
       return std::nullopt;
+    }
+    if (report_.gradient) {
+      return Stop{RunStatus::converged,
+                  fmt::format("distance to the minimum {:.2e} below {:g}, constraints met",
+                              *report_.gradient, stop_.gradient)};
     }
     return Stop{
         RunStatus::converged,

@@ -45,14 +45,16 @@ bool Stationarity::is_at_rest(const StepView& view) {
   const long newton = view.report.counts.newton;
   steps_without_newton_ = newton == last_newton_ ? steps_without_newton_ + 1 : 0;
   last_newton_ = newton;
-  return steps_at_rest_ >= options_.rest_steps &&
-         steps_without_newton_ >= options_.steps_without_newton &&
-         meets_velocity(view.diagnostics) && !targets_move(model_.targets, view.state.time);
+  const bool counts_rest = !view.report.gradient;
+  return (!counts_rest || steps_at_rest_ >= options_.rest_steps) &&
+         steps_without_newton_ >= options_.steps_without_newton && meets_velocity(view) &&
+         !targets_move(model_.targets, view.state.time);
 }
 
-bool Stationarity::meets_velocity(const problem::Diagnostics& diagnostics) const {
-  return diagnostics.velocity.normal_rigid_free <
-         options_.normal_velocity * characteristic_radius(diagnostics);
+bool Stationarity::meets_velocity(const StepView& view) const {
+  if (view.report.gradient) return *view.report.gradient < options_.gradient;
+  return view.diagnostics.velocity.normal_rigid_free <
+         options_.normal_velocity * characteristic_radius(view.diagnostics);
 }
 
 bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) const {

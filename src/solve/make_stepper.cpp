@@ -20,6 +20,12 @@ void check(const SolverOptions& options) {
     throw ConfigError(fmt::format("solver.initial_step = {}: must be <= solver.max_step = {}",
                                   options.initial_step, options.max_step));
   }
+  if (options.scheme == Scheme::variational && options.method == Method::semi_implicit) {
+    throw ConfigError(
+        "solver.scheme = variational: must be paper for solver.method = semi-implicit");
+  }
+  if (options.polish && options.method == Method::semi_implicit)
+    throw ConfigError("solver.polish = true: must be false for solver.method = semi-implicit");
 }
 
 }  // namespace

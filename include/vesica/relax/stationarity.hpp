@@ -15,6 +15,7 @@ struct StopOptions {
   double normal_velocity = 1e-3;
   double constraint = 1e-8;
   double multiplier_change = 1e-3;
+  double gradient = 1e-5;
   int rest_steps = 3;
   int steps_without_newton = 0;
   double end_time = std::numeric_limits<double>::infinity();
@@ -32,6 +33,11 @@ struct StopOptions {
     visit(Field{"multiplier_change", "-",
                 "converged below it: relative change of the multipliers in a step", Rule::positive},
           self.multiplier_change);
+    visit(Field{"gradient", "-",
+                "converged below it: distance to the minimum sqrt(g P g / k), about sqrt(2 (E - "
+                "E_min) / k); method minimize only",
+                Rule::positive},
+          self.gradient);
     visit(Field{"rest_steps", "-", "number of last steps in which the multipliers must be at rest",
                 Rule::at_least_one},
           self.rest_steps);
@@ -53,6 +59,8 @@ struct StopOptions {
 ///   no multiplier, in k/R_c^3 (volume) or k/R_c^2 (area, phase), changed by more than
 ///   multiplier_change times the largest (or 1, when all are small) in any of the last rest_steps,
 ///   every relative constraint error is below constraint,
+///   (a method that reports its distance to the minimum: that is below `gradient` instead of the
+///   two conditions above),
 ///   and the last steps_without_newton took no Newton iteration (rule of 3.4; IDA always iterates).
 class Stationarity {
  public:
@@ -60,7 +68,8 @@ class Stationarity {
 
   /// To be called once a step: whether velocity and multipliers are at rest.
   [[nodiscard]] bool is_at_rest(const StepView& view);
-  [[nodiscard]] bool meets_velocity(const problem::Diagnostics& diagnostics) const;
+  /// Velocity, or for a method that reports it the distance to the minimum.
+  [[nodiscard]] bool meets_velocity(const StepView& view) const;
   [[nodiscard]] bool meets_constraints(const problem::Diagnostics& diagnostics) const;
   /// The limit that is reached, if any.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;

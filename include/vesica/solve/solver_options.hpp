@@ -11,8 +11,8 @@
 
 namespace vesica::solve {
 
-enum class Method { ida, semi_implicit };
-enum class Scheme { paper };
+enum class Method { ida, semi_implicit, minimize };
+enum class Scheme { paper, variational };
 enum class NewtonMode { krylov, direct };
 
 /// How the equations are solved. Times are in [length^4/energy]: the mobility of the gradient flow
@@ -31,13 +31,18 @@ struct SolverOptions {
   NewtonMode newton = NewtonMode::krylov;
   linalg::DirectSolverKind linear_solver = linalg::default_direct_solver;
   bool final_constraint_solve = true;
+  bool polish = false;
   int threads = 0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    visit(Field{"method", "-", "integrator: ida (adaptive) or semi-implicit (the paper's own)"},
+    visit(Field{"method", "-",
+                "ida (adaptive flow), semi-implicit (the paper's own) or minimize (Ceres)"},
           self.method);
-    visit(Field{"scheme", "-", "equations: paper (weak form of Problem 3.1)"}, self.scheme);
+    visit(Field{"scheme", "-",
+                "ida: paper (weak form of Problem 3.1) or variational (gradient flow of the "
+                "discrete energy)"},
+          self.scheme);
     visit(Field{"rtol", "-",
                 "error allowed in a step, relative to the diameter 2 R_c and to the range of c",
                 Rule::positive},
@@ -65,6 +70,8 @@ struct SolverOptions {
     visit(Field{"linear_solver", "-", "sparse factorisation: umfpack or klu"}, self.linear_solver);
     visit(Field{"final_constraint_solve", "-", "take the constraints to round-off at the end"},
           self.final_constraint_solve);
+    visit(Field{"polish", "-", "at the end, Newton's method on the equations of the equilibrium"},
+          self.polish);
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }
@@ -75,13 +82,15 @@ struct SolverOptions {
 namespace vesica {
 template <>
 struct EnumNames<solve::Method> {
-  static constexpr std::array<std::pair<solve::Method, std::string_view>, 2> names{
-      {{solve::Method::ida, "ida"}, {solve::Method::semi_implicit, "semi-implicit"}}};
+  static constexpr std::array<std::pair<solve::Method, std::string_view>, 3> names{
+      {{solve::Method::ida, "ida"},
+       {solve::Method::semi_implicit, "semi-implicit"},
+       {solve::Method::minimize, "minimize"}}};
 };
 template <>
 struct EnumNames<solve::Scheme> {
-  static constexpr std::array<std::pair<solve::Scheme, std::string_view>, 1> names{
-      {{solve::Scheme::paper, "paper"}}};
+  static constexpr std::array<std::pair<solve::Scheme, std::string_view>, 2> names{
+      {{solve::Scheme::paper, "paper"}, {solve::Scheme::variational, "variational"}}};
 };
 template <>
 struct EnumNames<solve::NewtonMode> {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::solve {
@@ -34,7 +36,10 @@ struct StepReport {
   double time = 0;       ///< time reached [time]
   double step_size = 0;  ///< size of this step [time]
   int order = 0;         ///< order of the method used
-  SolverCounts counts;   ///< totals after the step
+  /// Distance to the minimum sqrt(g^T P g), about sqrt(2 (E - E_min)) and independent of the mesh,
+  /// over sqrt(k_kappa); only methods that minimise have it.
+  std::optional<double> gradient;
+  SolverCounts counts;  ///< totals after the step
   SolverSeconds seconds;
   std::string reason;  ///< for a failed step: call, code by name, and what to try
 };
@@ -48,9 +53,13 @@ class Stepper {
   virtual ~Stepper() = default;
 
   [[nodiscard]] virtual const problem::State& state() const = 0;
+  /// Energy of the state where the method has a discrete energy of its own, in place of the one
+  /// that problem::measure() integrates.
+  [[nodiscard]] virtual std::optional<problem::EnergyParts> energy() const { return std::nullopt; }
   /// One step, not beyond `end_time`. Numerical trouble is a status, not an exception.
   virtual StepReport step(double end_time) = 0;
-  /// Takes the constraints of an almost resting state to round-off; optional for a method.
+  /// Takes the constraints of an almost resting state to round-off, and with `polish` the state to
+  /// the equilibrium; optional for a method.
   virtual StepReport finish() = 0;
   /// Tangential damping alpha of equation (b) from the next step on [length^2/energy].
   virtual void set_damping(double alpha) = 0;

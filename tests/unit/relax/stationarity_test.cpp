@@ -34,9 +34,9 @@ class StationarityTest : public ::testing::Test {
 TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdTimesTheRadius) {
   const Stationarity criterion(options_, model_);
   (void)view(1.9e-3, 0);
-  EXPECT_TRUE(criterion.meets_velocity(diagnostics_));
+  EXPECT_TRUE(criterion.meets_velocity({state_, report_, diagnostics_}));
   (void)view(2.1e-3, 0);
-  EXPECT_FALSE(criterion.meets_velocity(diagnostics_));
+  EXPECT_FALSE(criterion.meets_velocity({state_, report_, diagnostics_}));
 }
 
 TEST_F(StationarityTest, WantsTheMultipliersAtRestOverTheLastSteps) {
