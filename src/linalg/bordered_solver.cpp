@@ -26,6 +26,7 @@ Eigen::VectorXd BorderedMatrix::multiply(const Eigen::VectorXd& x) const {
   Eigen::VectorXd result(n + m);
   result.head(n) = product + columns * x.tail(m);
   result.tail(m) = rows * head;
+  if (corner.size() > 0) result.tail(m) += corner * x.tail(m);
   return result;
 }
 
@@ -39,7 +40,9 @@ void BorderedSolver::factorise(const BorderedMatrix& matrix) {
   for (Eigen::Index k = 0; k < matrix.columns.cols(); ++k) {
     solved_columns_.col(k) = solve_block(matrix.columns.col(k));
   }
-  schur_.compute(rows_ * solved_columns_);
+  Eigen::MatrixXd schur = rows_ * solved_columns_;
+  if (matrix.corner.size() > 0) schur -= matrix.corner;
+  schur_.compute(schur);
   if (!solved_columns_.allFinite() ||
       (matrix.columns.cols() > 0 && schur_.matrixLU().diagonal().cwiseAbs().minCoeff() == 0)) {
     throw RecoverableError("bordered matrix: the constraints are not independent");

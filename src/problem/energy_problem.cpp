@@ -1,10 +1,12 @@
 #include "vesica/problem/energy_problem.hpp"
 
 #include <numbers>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "energy_element.hpp"
+#include "vesica/core/dual.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/fem/mass_matrix.hpp"
@@ -99,6 +101,26 @@ double gaussian_energy(const model::Model& model, const EnergyElement& element) 
     sum += weight * term(gaussian_point(element, s, shape)).value;
   });
   return sum;
+}
+
+/// A number whose derivative is a rate, or without it.
+template <class T>
+T with_rate(double value, double rate) {
+  T result(value);
+  if constexpr (!std::is_same_v<T, double>) result.derivatives[0] = rate;
+  return result;
+}
+
+template <class T>
+ElementNodes<T> constraint_nodes(const EnergyElement& element) {
+  ElementNodes<T> nodes;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& x = element.x[i];
+    const auto& v = element.velocity[i];
+    nodes.x[i] = {with_rate<T>(x.x, v.x), with_rate<T>(x.y, v.y), with_rate<T>(x.z, v.z)};
+    nodes.c[i] = with_rate<T>(element.c[i], element.c_rate[i]);
+  }
+  return nodes;
 }
 
 void check_finite(bool is_finite, std::string_view what) {
@@ -205,22 +227,27 @@ EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multiplie
   return result;
 }
 
-ConstraintEvaluation EnergyProblem::constraints(const mesh::Positions& positions,
-                                                const Eigen::VectorXd& order_parameter) const {
-  const EnergyFields fields{positions, {}, order_parameter};
+template <class T, class Take>
+ConstraintEvaluation EnergyProblem::assemble_constraints(const EnergyFields& fields,
+                                                         const EnergyRates& rates,
+                                                         const Take& take) const {
   const auto count = at(triangulation_->num_triangles());
   std::vector<double> local(count * 60, 0.0);
   std::vector<std::array<double, 3>> values(count);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
-      const ElementNodes<double> nodes{element.x, element.c};
-      values[at(t)] = element_constraint_values(nodes, model_.is_two_phase);
+      const auto element = energy_element(fields, rates, triangulation_->triangles()[at(t)]);
+      const auto nodes = constraint_nodes<T>(element);
+      const auto sums = element_constraint_values(nodes, model_.is_two_phase);
       const auto gradients = element_constraint_gradients(nodes, model_.is_two_phase);
+      for (std::size_t k = 0; k < 3; ++k) values[at(t)][k] = take(sums[k]);
       for (std::size_t i = 0; i < 6; ++i) {
         double* row = &local[at(t) * 60 + 10 * i];
-        for (std::size_t k = 0; k < 3; ++k) add(gradients.dx[k][i], row + 3 * k);
-        row[9] = gradients.dc[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto& g = gradients.dx[k][i];
+          add({take(g.x), take(g.y), take(g.z)}, row + 3 * k);
+        }
+        row[9] = take(gradients.dc[i]);
       }
     }
   });
@@ -233,6 +260,19 @@ ConstraintEvaluation EnergyProblem::constraints(const mesh::Positions& positions
     result.positions[k] = sums.middleCols<3>(static_cast<Eigen::Index>(3 * k));
   if (model_.is_two_phase) result.order_parameter = sums.col(9);
   return result;
+}
+
+ConstraintEvaluation EnergyProblem::constraints(const mesh::Positions& positions,
+                                                const Eigen::VectorXd& order_parameter) const {
+  return assemble_constraints<double>({positions, {}, order_parameter}, {},
+                                      [](double a) { return a; });
+}
+
+ConstraintEvaluation EnergyProblem::constraint_rates(const mesh::Positions& positions,
+                                                     const Eigen::VectorXd& order_parameter,
+                                                     const EnergyRates& rates) const {
+  return assemble_constraints<Dual<1>>({positions, {}, order_parameter}, rates,
+                                       [](const Dual<1>& a) { return a.derivatives[0]; });
 }
 
 }  // namespace vesica::problem

@@ -88,6 +88,26 @@ RelaxationProblem::RelaxationProblem(std::shared_ptr<const mesh::Triangulation> 
       layout_(triangulation_->num_nodes(), model_),
       threads_(resolved_threads(threads)) {}
 
+/// kappa of the start is that of its recovered shape operator, -tr Q.
+Eigen::VectorXd RelaxationProblem::initial_values(const State& start) const {
+  Fields values = start.values;
+  const auto q =
+      fem::recover_shape_operator(*triangulation_, graph_, start.values.positions, threads_);
+  values.mean_curvature = -(q.col(0) + q.col(1) + q.col(2));
+  return layout_.pack(values);
+}
+
+/// Diameter 2 R_c and range 2 of c, and as much in units of curvature.
+Eigen::VectorXd RelaxationProblem::units(const Scales& scales) const {
+  Eigen::VectorXd units(layout_.size());
+  for (Eigen::Index row = 0; row < layout_.num_nodal(); ++row) {
+    const auto component = row % layout_.block_size();
+    units[row] = component < 3 ? scales.length : component == 3 ? 1 / scales.length : 1;
+  }
+  units.tail(layout_.num_multipliers()).setConstant(scales.multiplier());
+  return units;
+}
+
 Eigen::VectorXd RelaxationProblem::residual(const EquationSettings& settings, double time,
                                             const Eigen::VectorXd& y,
                                             const Eigen::VectorXd& y_rate) const {

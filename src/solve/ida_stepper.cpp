@@ -9,7 +9,8 @@
 
 #include "backward_euler.hpp"
 #include "ida_linear_solvers.hpp"
-#include "vesica/fem/recovery.hpp"
+#include "vesica/problem/relaxation_problem.hpp"
+#include "vesica/problem/variational_problem.hpp"
 
 namespace vesica::solve {
 
@@ -30,19 +31,17 @@ constexpr double multiplier_tolerance_factor =
 constexpr int max_initial_iterations = 15;
 constexpr double initial_tolerance = 1e-8;
 constexpr double slow_convergence = 0.2;
+constexpr double restart_step_factor = 0.3;  // of the last step, for new coordinates
 
-/// Mean curvature of the start from its recovered shape operator: kappa = -tr Q.
-Eigen::VectorXd recovered_mean_curvature(const problem::State& state) {
-  const fem::NodeGraph graph(*state.triangulation);
-  const auto q =
-      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 1);
-  return -(q.col(0) + q.col(1) + q.col(2));
-}
-
-problem::State prepared(problem::State start) {
-  start.values.mean_curvature = recovered_mean_curvature(start);
-  start.rates = {};
-  return start;
+/// The equations of the flow on the mesh of the start.
+std::unique_ptr<problem::FlowProblem> make_problem(const SolverOptions& options,
+                                                   const model::Model& model,
+                                                   const problem::State& start) {
+  if (options.scheme == Scheme::variational) {
+    return std::make_unique<problem::VariationalProblem>(start.triangulation, model,
+                                                         start.values.positions, options.threads);
+  }
+  return std::make_unique<problem::RelaxationProblem>(start.triangulation, model, options.threads);
 }
 
 void silence(int, const char*, const char*, char*, void*) {}
@@ -94,13 +93,13 @@ struct IdaStepper::Callbacks {
 IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
                        problem::State start)
     : options_(options),
-      state_(prepared(std::move(start))),
+      state_(std::move(start)),
       scales_(problem::scales_of(model, state_)),
-      problem_(state_.triangulation, model, options.threads),
+      problem_(make_problem(options, model, state_)),
       settings_{scales_.damping(), options.constraint_rate / scales_.time(),
                 problem::ConstraintForm::differentiated},
-      system_(problem_, options.linear_solver),
-      y_(problem_.layout().pack(state_.values)),
+      system_(*problem_, options.linear_solver),
+      y_(problem_->initial_values(state_)),
       y_rate_(Eigen::VectorXd::Zero(y_.size())),
       context_(sundials::make_context()) {
   if (state_.damping > 0) settings_.damping = state_.damping;
@@ -114,7 +113,7 @@ IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
 /// the changes do not fall fast: the equations are linear but for kappa, which starts from the
 /// recovered shape operator.
 void IdaStepper::find_initial_rates() {
-  const Eigen::VectorXd differential = problem_.layout().differential_mask();
+  const Eigen::VectorXd differential = problem_->differential_mask();
   double last_change = 0;
   bool needs_factors = true;
   try {
@@ -147,7 +146,7 @@ double IdaStepper::resting_rate() const {
 }
 
 void IdaStepper::configure_ida() {
-  const auto size = problem_.layout().size();
+  const auto size = problem_->size();
   ida_y_ = sundials::make_vector(size, context_);
   ida_y_rate_ = sundials::make_vector(size, context_);
   view(ida_y_.get()) = y_;
@@ -163,7 +162,7 @@ void IdaStepper::configure_ida() {
   check(IDASVtolerances(ida, 0.0, tolerances.get()), "IDASVtolerances");
 
   const auto kinds = sundials::make_vector(size, context_);
-  view(kinds.get()) = problem_.layout().differential_mask();
+  view(kinds.get()) = problem_->differential_mask();
   check(IDASetId(ida, kinds.get()), "IDASetId");
   check(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   check(IDASetMaxOrd(ida, options_.max_order), "IDASetMaxOrd");
@@ -175,18 +174,11 @@ void IdaStepper::configure_ida() {
   check(IDASetMaxNonlinIters(ida, max_newton_iterations), "IDASetMaxNonlinIters");
 }
 
-/// The error allowed in each unknown: relative to the diameter 2 R_c, to the curvature 2/R_c of the
-/// sphere and to the range of c, not to the single value, so the steps do not depend on where the
-/// origin is.
+/// The error allowed in each unknown, relative to its natural unit (the diameter 2 R_c, the range
+/// of c) and not to the single value: the steps do not depend on where the origin is.
 Eigen::VectorXd IdaStepper::error_tolerances() const {
-  const auto block = problem_.layout().block_size();
-  Eigen::VectorXd tolerances(problem_.layout().size());
-  for (Eigen::Index row = 0; row < problem_.layout().num_nodal(); ++row) {
-    const auto component = row % block;
-    const double unit = component < 3 ? scales_.length : component == 3 ? 1 / scales_.length : 1;
-    tolerances[row] = (2 * options_.rtol + options_.atol) * unit;
-  }
-  tolerances.tail(problem_.layout().num_multipliers())
+  Eigen::VectorXd tolerances = (2 * options_.rtol + options_.atol) * problem_->units(scales_);
+  tolerances.tail(problem_->num_multipliers())
       .setConstant(options_.rtol * multiplier_tolerance_factor * scales_.multiplier());
   return tolerances;
 }
@@ -213,7 +205,7 @@ void IdaStepper::configure_linear_solver() {
 
 /// Steps end at the kinks of the ramps: the multipliers jump there.
 double IdaStepper::next_stop_time(double end_time) const {
-  const auto& targets = problem_.model().targets;
+  const auto& targets = problem_->model().targets;
   double next = end_time;
   for (const auto& ramp : {targets.volume, targets.area, targets.phase_difference}) {
     if (!ramp || ramp->is_constant()) continue;
@@ -223,6 +215,8 @@ double IdaStepper::next_stop_time(double end_time) const {
   }
   return next;
 }
+
+std::optional<problem::EnergyParts> IdaStepper::energy() const { return problem_->energy(y_); }
 
 StepReport IdaStepper::step(double end_time) {
   const ScopedTimer timer(total_seconds_);
@@ -239,7 +233,9 @@ StepReport IdaStepper::step(double end_time) {
   y_ = view(ida_y_.get());
   y_rate_ = view(ida_y_rate_.get());
   store(time, y_, y_rate_);
-  return report(StepStatus::accepted, {});
+  const auto result = report(StepStatus::accepted, {});
+  renew_coordinates();
+  return result;
 }
 
 /// One backward-Euler step of the last size, with the constraints themselves in place of (e).
@@ -247,7 +243,7 @@ StepReport IdaStepper::finish() {
   if (!options_.final_constraint_solve) return report(StepStatus::accepted, {});
   const ScopedTimer timer(total_seconds_);
   BackwardEulerStep step{
-      settings_, 0, 0, y_, problem_.layout().differential_mask(), Eigen::VectorXd(y_.size())};
+      settings_, 0, 0, y_, problem_->differential_mask(), Eigen::VectorXd(y_.size())};
   check(IDAGetLastStep(ida_.get(), &step.step_size), "IDAGetLastStep");
   const auto weights = sundials::make_vector(y_.size(), context_);
   check(IDAGetErrWeights(ida_.get(), weights.get()), "IDAGetErrWeights");
@@ -278,16 +274,30 @@ void IdaStepper::set_damping(double alpha) {
 void IdaStepper::restart() {
   const ScopedTimer timer(total_seconds_);
   find_initial_rates();
+  reinitialise(options_.initial_step);
+  store(state_.time, y_, y_rate_);
+}
+
+/// IDA goes on from (y, y') with order one. It forgets its counters, which are kept here.
+void IdaStepper::reinitialise(double initial_step) {
+  earlier_counts_ = ida_counts();
   view(ida_y_.get()) = y_;
   view(ida_y_rate_.get()) = y_rate_;
   check(IDAReInit(ida_.get(), state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAReInit");
-  store(state_.time, y_, y_rate_);
+  check(IDASetInitStep(ida_.get(), initial_step), "IDASetInitStep");
+}
+
+void IdaStepper::renew_coordinates() {
+  if (!problem_->renew_coordinates(y_, y_rate_)) return;
+  double last_step = 0;
+  check(IDAGetLastStep(ida_.get(), &last_step), "IDAGetLastStep");
+  reinitialise(restart_step_factor * last_step);
 }
 
 void IdaStepper::store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
   state_.time = time;
-  state_.values = problem_.layout().unpack(y);
-  state_.rates = problem_.layout().unpack(y_rate);
+  state_.values = problem_->values(y);
+  state_.rates = problem_->rates(y, y_rate);
   state_.damping = settings_.damping;
 }
 
@@ -299,24 +309,37 @@ StepReport IdaStepper::report(StepStatus status, std::string reason) {
   result.counts = system_.counts();
   result.seconds = system_.seconds();
   result.seconds.total = total_seconds_;
-  void* ida = ida_.get();
-  long error_failures = 0;
-  long newton_failures = 0;
-  check(IDAGetNumSteps(ida, &result.counts.steps), "IDAGetNumSteps");
-  check(IDAGetNumNonlinSolvIters(ida, &result.counts.newton), "IDAGetNumNonlinSolvIters");
-  check(IDAGetNumLinIters(ida, &result.counts.krylov), "IDAGetNumLinIters");
-  check(IDAGetNumErrTestFails(ida, &error_failures), "IDAGetNumErrTestFails");
-  check(IDAGetNumNonlinSolvConvFails(ida, &newton_failures), "IDAGetNumNonlinSolvConvFails");
-  result.counts.failures = error_failures + newton_failures;
-  check(IDAGetLastStep(ida, &result.step_size), "IDAGetLastStep");
-  check(IDAGetLastOrder(ida, &result.order), "IDAGetLastOrder");
+  const auto counts = ida_counts();
+  result.counts.steps = counts.steps;
+  result.counts.newton = counts.newton;
+  result.counts.krylov = counts.krylov;
+  result.counts.failures = counts.failures;
+  check(IDAGetLastStep(ida_.get(), &result.step_size), "IDAGetLastStep");
+  check(IDAGetLastOrder(ida_.get(), &result.order), "IDAGetLastOrder");
   return result;
 }
 
+/// What IDA counts, since the stepper was made.
+SolverCounts IdaStepper::ida_counts() const {
+  void* ida = ida_.get();
+  SolverCounts counts;
+  long error_failures = 0;
+  long newton_failures = 0;
+  check(IDAGetNumSteps(ida, &counts.steps), "IDAGetNumSteps");
+  check(IDAGetNumNonlinSolvIters(ida, &counts.newton), "IDAGetNumNonlinSolvIters");
+  check(IDAGetNumLinIters(ida, &counts.krylov), "IDAGetNumLinIters");
+  check(IDAGetNumErrTestFails(ida, &error_failures), "IDAGetNumErrTestFails");
+  check(IDAGetNumNonlinSolvConvFails(ida, &newton_failures), "IDAGetNumNonlinSolvConvFails");
+  counts.steps += earlier_counts_.steps;
+  counts.newton += earlier_counts_.newton;
+  counts.krylov += earlier_counts_.krylov;
+  counts.failures = earlier_counts_.failures + error_failures + newton_failures;
+  return counts;
+}
+
 std::string IdaStepper::failure_text(int code) const {
-  long steps = 0;
+  const long steps = ida_counts().steps;
   realtype last_step = 0;
-  check(IDAGetNumSteps(ida_.get(), &steps), "IDAGetNumSteps");
   check(IDAGetCurrentStep(ida_.get(), &last_step), "IDAGetCurrentStep");
   return fmt::format(
       "IDASolve at t = {:.6g}: {}, {} steps, last step tried {:.2g}{}{}; a finer mesh, a larger "

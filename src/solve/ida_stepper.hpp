@@ -1,11 +1,13 @@
 #pragma once
 
 #include <exception>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "newton_system.hpp"
 #include "sundials.hpp"
-#include "vesica/problem/relaxation_problem.hpp"
+#include "vesica/problem/flow_problem.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
@@ -21,6 +23,7 @@ class IdaStepper final : public Stepper {
   IdaStepper(const SolverOptions& options, const model::Model& model, problem::State start);
 
   [[nodiscard]] const problem::State& state() const override { return state_; }
+  [[nodiscard]] std::optional<problem::EnergyParts> energy() const override;
   StepReport step(double end_time) override;
   StepReport finish() override;
   void set_damping(double alpha) override;
@@ -31,23 +34,27 @@ class IdaStepper final : public Stepper {
   void find_initial_rates();
   [[nodiscard]] double resting_rate() const;
   void restart();
+  void reinitialise(double initial_step);
+  void renew_coordinates();
   void configure_ida();
   void configure_linear_solver();
   [[nodiscard]] Eigen::VectorXd error_tolerances() const;
   [[nodiscard]] double next_stop_time(double end_time) const;
   void store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
+  [[nodiscard]] SolverCounts ida_counts() const;
   [[nodiscard]] StepReport report(StepStatus status, std::string reason);
   [[nodiscard]] std::string failure_text(int code) const;
 
   SolverOptions options_;
   problem::State state_;
   problem::Scales scales_;
-  problem::RelaxationProblem problem_;
+  std::unique_ptr<problem::FlowProblem> problem_;
   problem::EquationSettings settings_;
   NewtonSystem system_;
   Eigen::VectorXd y_;
   Eigen::VectorXd y_rate_;
   bool has_stepped_ = false;
+  SolverCounts earlier_counts_;  // of IDA before its last initialisation
   double total_seconds_ = 0;
   std::exception_ptr fatal_;   // thrown in a callback, rethrown after the C call
   std::string last_trouble_;   // text of the last RecoverableError

@@ -15,10 +15,10 @@ double now() {
 ScopedTimer::ScopedTimer(double& total) : total_(total), start_(now()) {}
 ScopedTimer::~ScopedTimer() { total_ += now() - start_; }
 
-NewtonSystem::NewtonSystem(const problem::RelaxationProblem& problem, linalg::DirectSolverKind kind)
+NewtonSystem::NewtonSystem(const problem::FlowProblem& problem, linalg::DirectSolverKind kind)
     : problem_(problem),
       matrix_(problem.make_matrix()),
-      solver_(kind, matrix_, problem.layout().block_size()) {}
+      solver_(kind, matrix_, problem.block_size()) {}
 
 Eigen::VectorXd NewtonSystem::residual(const problem::EquationSettings& settings, double time,
                                        const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {

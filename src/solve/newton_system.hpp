@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "vesica/linalg/bordered_solver.hpp"
-#include "vesica/problem/relaxation_problem.hpp"
+#include "vesica/problem/flow_problem.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
 
@@ -22,11 +22,11 @@ class ScopedTimer {
   double start_;
 };
 
-/// Jacobian of a RelaxationProblem and its factors, with the counts and seconds they cost. One
+/// Jacobian of a FlowProblem and its factors, with the counts and seconds they cost. One
 /// symbolic factorisation serves all matrices of a mesh.
 class NewtonSystem {
  public:
-  NewtonSystem(const problem::RelaxationProblem& problem, linalg::DirectSolverKind kind);
+  NewtonSystem(const problem::FlowProblem& problem, linalg::DirectSolverKind kind);
 
   [[nodiscard]] Eigen::VectorXd residual(const problem::EquationSettings& settings, double time,
                                          const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
@@ -40,7 +40,7 @@ class NewtonSystem {
   [[nodiscard]] const SolverSeconds& seconds() const { return seconds_; }
 
  private:
-  const problem::RelaxationProblem& problem_;
+  const problem::FlowProblem& problem_;
   linalg::BorderedMatrix matrix_;
   linalg::BorderedSolver solver_;
   SolverCounts counts_;

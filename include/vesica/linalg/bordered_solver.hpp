@@ -10,12 +10,13 @@ namespace vesica::linalg {
 
 /// Sparse matrix K bordered by a few dense columns and rows:
 ///
-///     [ K  columns ]      K (n, n),  columns (n, m),  rows (m, n)
-///     [ rows   0   ]
+///     [ K     columns ]      K (n, n),  columns (n, m),  rows (m, n),  corner (m, m)
+///     [ rows  corner  ]
 struct BorderedMatrix {
   SparseMatrix block;
   Eigen::MatrixXd columns;
   Eigen::MatrixXd rows;
+  Eigen::MatrixXd corner;  ///< may be empty: zero
 
   [[nodiscard]] Eigen::Index size() const { return columns.rows() + columns.cols(); }
   [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;

@@ -7,6 +7,7 @@
 #include "vesica/fem/node_graph.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/flow_problem.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::problem {
@@ -34,9 +35,6 @@ struct ConstraintEvaluation {
   std::array<mesh::Positions, model::num_constraints> positions;
   Eigen::VectorXd order_parameter;  ///< of the phase difference; the others do not depend on c
 };
-
-/// How the Jacobian of the flow is weighted: value * d/dy + rate * d/dy'.
-struct JacobianWeights;
 
 /// One discrete energy of the membrane, the dual mixed form with the bending moment p as third
 /// field:
@@ -77,9 +75,17 @@ class EnergyProblem {
                linalg::SparseMatrix& matrix) const;
   [[nodiscard]] ConstraintEvaluation constraints(const mesh::Positions& positions,
                                                  const Eigen::VectorXd& order_parameter) const;
+  /// The time derivative of `constraints` along the rates: of the values and of the gradients.
+  [[nodiscard]] ConstraintEvaluation constraint_rates(const mesh::Positions& positions,
+                                                      const Eigen::VectorXd& order_parameter,
+                                                      const EnergyRates& rates) const;
 
  private:
   [[nodiscard]] bool has_gaussian_term() const;
+  template <class T, class Take>
+  [[nodiscard]] ConstraintEvaluation assemble_constraints(const EnergyFields& fields,
+                                                          const EnergyRates& rates,
+                                                          const Take& take) const;
   template <int Block>
   void assemble_hessian(const EnergyFields& fields, const Multipliers& multipliers,
                         const EnergyRates& rates, const mesh::Positions& directions,

@@ -8,28 +8,10 @@
 #include "vesica/linalg/bordered_solver.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/problem/dof_layout.hpp"
+#include "vesica/problem/flow_problem.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::problem {
-
-/// Equation (e): the exact derivative of the discrete functionals, d/dt C_i + gamma (C_i -
-/// target_i) = target_i', or the constraints themselves, C_i = target_i.
-enum class ConstraintForm { differentiated, original };
-
-/// Parameters of the equations that are not unknowns.
-struct EquationSettings {
-  double damping = 1;            ///< alpha of (b) [length^2/energy]
-  double constraint_rate = 100;  ///< gamma of (e) [1/time]
-  ConstraintForm form = ConstraintForm::differentiated;
-};
-
-/// J = value * dF/dy + rate * dF/dy' for the unknowns with a time derivative (x, c); kappa and the
-/// multipliers, which have none, always enter with dF/dy. IDA's Jacobian is {1, cj}; {0, 1} is the
-/// matrix for consistent initial values.
-struct JacobianWeights {
-  double value = 1;
-  double rate = 0;
-};
 
 /// Values of the constrained functionals and their derivatives along the rates, in the order
 /// volume, area, phase.
@@ -52,28 +34,38 @@ struct EquationContext;
 /// Unknowns and equations of a node stand together (DofLayout); equation order in a node: (b) x, y,
 /// z, (a), (d). Every method throws RecoverableError when an element is degenerate or a value is
 /// not finite.
-class RelaxationProblem {
+class RelaxationProblem final : public FlowProblem {
  public:
   /// `threads` as for parallel_for; 0 takes all cores.
   RelaxationProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
                     int threads);
 
   [[nodiscard]] const DofLayout& layout() const { return layout_; }
-  [[nodiscard]] const model::Model& model() const { return model_; }
+  [[nodiscard]] const model::Model& model() const override { return model_; }
+  [[nodiscard]] int block_size() const override { return layout_.block_size(); }
+  [[nodiscard]] Eigen::Index num_nodal() const override { return layout_.num_nodal(); }
+  [[nodiscard]] Eigen::Index num_multipliers() const override { return layout_.num_multipliers(); }
+  [[nodiscard]] Eigen::VectorXd initial_values(const State& start) const override;
+  [[nodiscard]] Fields values(const Eigen::VectorXd& y) const override { return layout_.unpack(y); }
+  [[nodiscard]] Fields rates(const Eigen::VectorXd&, const Eigen::VectorXd& y_rate) const override {
+    return layout_.unpack(y_rate);
+  }
+  [[nodiscard]] Eigen::VectorXd differential_mask() const override {
+    return layout_.differential_mask();
+  }
+  [[nodiscard]] Eigen::VectorXd units(const Scales& scales) const override;
 
-  /// F(t, y, y'), shape (layout().size()).
   [[nodiscard]] Eigen::VectorXd residual(const EquationSettings& settings, double time,
                                          const Eigen::VectorXd& y,
-                                         const Eigen::VectorXd& y_rate) const;
+                                         const Eigen::VectorXd& y_rate) const override;
 
-  /// A bordered matrix of the right pattern for `jacobian`.
-  [[nodiscard]] linalg::BorderedMatrix make_matrix() const;
+  [[nodiscard]] linalg::BorderedMatrix make_matrix() const override;
 
   /// The Jacobian at (y, y'), exact but for the recovered shape operator Q_h, which is nonlocal:
   /// its value is used, its derivative is that of the elementwise shape operator.
   void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
-                linalg::BorderedMatrix& matrix) const;
+                linalg::BorderedMatrix& matrix) const override;
 
   /// Values of all three functionals (the phase difference is 0 for a single-phase vesicle) and
   /// their exact rates.

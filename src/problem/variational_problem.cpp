@@ -1,0 +1,269 @@
+#include "vesica/problem/variational_problem.hpp"
+
+#include <utility>
+
+#include "vesica/core/error.hpp"
+
+namespace vesica::problem {
+
+namespace {
+
+constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+constexpr Eigen::Index displacement = 3;
+constexpr Eigen::Index phase = 4;
+constexpr Eigen::Index num_rigid = 6;
+constexpr double smallest_allowed_cosine = 0.85;
+
+std::vector<int> active_constraints(const model::Model& model) {
+  const auto& targets = model.targets;
+  std::vector<int> active;
+  if (targets.volume) active.push_back(0);
+  if (targets.area) active.push_back(1);
+  if (model.is_two_phase && targets.phase_difference) active.push_back(2);
+  return active;
+}
+
+const model::Ramp& target_of(const model::Targets& targets, int constraint) {
+  if (constraint == 0) return *targets.volume;
+  return constraint == 1 ? *targets.area : *targets.phase_difference;
+}
+
+}  // namespace
+
+VariationalProblem::VariationalProblem(std::shared_ptr<const mesh::Triangulation> triangulation,
+                                       model::Model model, const mesh::Positions& positions,
+                                       int threads)
+    : energy_(triangulation, std::move(model), threads),
+      graph_(make_normal_graph(*triangulation, positions)),
+      active_(active_constraints(energy_.model())) {}
+
+Eigen::Index VariationalProblem::num_nodal() const {
+  return graph_.reference.rows() * block_size();
+}
+
+Eigen::Index VariationalProblem::num_multipliers() const {
+  return static_cast<Eigen::Index>(active_.size()) + num_rigid;
+}
+
+Eigen::VectorXd VariationalProblem::component(const Eigen::VectorXd& y,
+                                              Eigen::Index component) const {
+  const Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>> strided(
+      y.data() + component, graph_.reference.rows(), Eigen::InnerStride<>(block_size()));
+  return strided;
+}
+
+EnergyFields VariationalProblem::fields(const Eigen::VectorXd& y) const {
+  EnergyFields fields;
+  fields.positions = graph_.positions(component(y, displacement));
+  fields.moment.resize(graph_.reference.rows(), 3);
+  for (Eigen::Index k = 0; k < 3; ++k) fields.moment.col(k) = component(y, k);
+  if (model().is_two_phase) fields.order_parameter = component(y, phase);
+  return fields;
+}
+
+EnergyRates VariationalProblem::energy_rates(const Eigen::VectorXd& y_rate) const {
+  EnergyRates rates;
+  rates.velocity = component(y_rate, displacement).asDiagonal() * graph_.directions;
+  if (model().is_two_phase) rates.order_parameter = component(y_rate, phase);
+  return rates;
+}
+
+Multipliers VariationalProblem::multipliers(const Eigen::VectorXd& y) const {
+  Multipliers result{};
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    result[at(active_[k])] = y[num_nodal() + static_cast<Eigen::Index>(k)];
+  return result;
+}
+
+Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
+  const auto block = block_size();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
+  const auto moment = energy_.moment(start.values.positions, start.values.order_parameter);
+  const mesh::Positions moved = start.values.positions - graph_.reference;
+  for (Eigen::Index i = 0; i < moment.rows(); ++i) {
+    y.segment<3>(i * block) = moment.row(i).transpose();
+    y[i * block + displacement] = moved.row(i).dot(graph_.directions.row(i));
+    if (block == 5) y[i * block + phase] = start.values.order_parameter[i];
+  }
+  const auto& given = start.values.multipliers;
+  const std::array values{given.volume, given.area, given.phase};
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    y[num_nodal() + static_cast<Eigen::Index>(k)] = values[at(active_[k])].value_or(0.0);
+  return y;
+}
+
+/// kappa = kappa_s - p . nu / k_kappa.
+Fields VariationalProblem::values(const Eigen::VectorXd& y) const {
+  const auto now = fields(y);
+  Fields result;
+  result.positions = now.positions;
+  result.order_parameter = now.order_parameter;
+  const auto normals = nodal_normals(energy_.triangulation(), now.positions);
+  const auto& material = model().material;
+  result.mean_curvature.resize(normals.rows());
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    const double c = model().is_two_phase ? now.order_parameter[i] : 1.0;
+    result.mean_curvature[i] =
+        model::interpolate(material.spontaneous_curvature, c) -
+        now.moment.row(i).dot(normals.row(i)) / model::interpolate(material.bending_rigidity, c);
+  }
+  const auto weights = multipliers(y);
+  const auto value = [&](int k) -> std::optional<double> {
+    if (std::find(active_.begin(), active_.end(), k) == active_.end()) return std::nullopt;
+    return weights[at(k)];
+  };
+  result.multipliers = {value(0), value(1), value(2)};
+  return result;
+}
+
+Fields VariationalProblem::rates(const Eigen::VectorXd&, const Eigen::VectorXd& y_rate) const {
+  const auto rates = energy_rates(y_rate);
+  Fields result;
+  result.positions = rates.velocity;
+  result.mean_curvature = Eigen::VectorXd::Zero(rates.velocity.rows());
+  result.order_parameter = rates.order_parameter;
+  return result;
+}
+
+Eigen::VectorXd VariationalProblem::differential_mask() const {
+  Eigen::VectorXd mask = Eigen::VectorXd::Zero(size());
+  for (Eigen::Index row = 0; row < num_nodal(); ++row)
+    mask[row] = row % block_size() >= displacement ? 1 : 0;
+  return mask;
+}
+
+Eigen::VectorXd VariationalProblem::units(const Scales& scales) const {
+  Eigen::VectorXd units(size());
+  for (Eigen::Index row = 0; row < num_nodal(); ++row) {
+    const auto component = row % block_size();
+    units[row] = component < displacement    ? scales.energy / scales.length
+                 : component == displacement ? scales.length
+                                             : 1;
+  }
+  units.tail(num_multipliers()).setConstant(scales.multiplier());
+  return units;
+}
+
+std::optional<EnergyParts> VariationalProblem::energy(const Eigen::VectorXd& y) const {
+  auto now = fields(y);
+  now.moment = energy_.moment(now.positions, now.order_parameter);
+  return energy_.energy(now);
+}
+
+Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, double time,
+                                             const Eigen::VectorXd& y,
+                                             const Eigen::VectorXd& y_rate) const {
+  const auto block = block_size();
+  const auto now = fields(y);
+  const auto rates = energy_rates(y_rate);
+  const auto gradient = energy_.gradient(now, multipliers(y), rates);
+  const auto constraints = energy_.constraints(now.positions, now.order_parameter);
+  const Eigen::VectorXd d = component(y, displacement);
+  const Eigen::VectorXd d_rate = component(y_rate, displacement);
+  const Eigen::VectorXd mu = y.tail<num_rigid>();
+  const Eigen::VectorXd force =
+      gradient.positions.cwiseProduct(graph_.directions).rowwise().sum() + graph_.gauge * mu;
+  Eigen::VectorXd result(size());
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
+    result.segment<3>(i * block) = gradient.moment.row(i).transpose();
+    result[i * block + displacement] = force[i];
+    if (block == 5) result[i * block + phase] = gradient.order_parameter[i];
+  }
+  const bool is_original = settings.form == ConstraintForm::original;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const int which = active_[k];
+    const auto& target = target_of(model().targets, which);
+    const double error = constraints.values[at(which)] - target.value(time);
+    double rate = constraints.positions[at(which)].cwiseProduct(rates.velocity).sum();
+    if (which == 2) rate += constraints.order_parameter.dot(rates.order_parameter);
+    result[num_nodal() + static_cast<Eigen::Index>(k)] =
+        is_original ? error : rate - target.rate(time) + settings.constraint_rate * error;
+  }
+  for (Eigen::Index k = 0; k < num_rigid; ++k) {
+    const auto column = graph_.gauge.col(k);
+    const double error = column.dot(d);
+    const double gauge =
+        is_original ? error : column.dot(d_rate) + settings.constraint_rate * error;
+    result[size() - num_rigid + k] = column.isZero(0) ? mu[k] : gauge;
+  }
+  if (!result.allFinite()) throw RecoverableError("the residual of the flow is not finite");
+  return result;
+}
+
+linalg::BorderedMatrix VariationalProblem::make_matrix() const {
+  linalg::BorderedMatrix matrix;
+  matrix.block = energy_.graph().block_pattern(block_size());
+  matrix.columns = Eigen::MatrixXd::Zero(num_nodal(), num_multipliers());
+  matrix.rows = Eigen::MatrixXd::Zero(num_multipliers(), num_nodal());
+  matrix.corner = Eigen::MatrixXd::Zero(num_multipliers(), num_multipliers());
+  return matrix;
+}
+
+/// Gradients of the active constraints, or their rates, as columns over the unknowns of the nodes.
+Eigen::MatrixXd VariationalProblem::constraint_columns(
+    const ConstraintEvaluation& constraints) const {
+  const auto block = block_size();
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(num_nodal(), static_cast<Eigen::Index>(active_.size()));
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const auto& gradient = constraints.positions[at(active_[k])];
+    auto column = columns.col(static_cast<Eigen::Index>(k));
+    for (Eigen::Index i = 0; i < gradient.rows(); ++i) {
+      column[i * block + displacement] = gradient.row(i).dot(graph_.directions.row(i));
+      if (active_[k] == 2) column[i * block + phase] = constraints.order_parameter[i];
+    }
+  }
+  return columns;
+}
+
+void VariationalProblem::jacobian(const EquationSettings& settings, const JacobianWeights& weights,
+                                  const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                                  linalg::BorderedMatrix& matrix) const {
+  const auto now = fields(y);
+  const auto rates = energy_rates(y_rate);
+  energy_.hessian(now, multipliers(y), rates, graph_.directions, weights, matrix.block);
+  const bool is_original = settings.form == ConstraintForm::original;
+  const double first =
+      is_original ? weights.value : weights.value * settings.constraint_rate + weights.rate;
+  const auto num_active = static_cast<Eigen::Index>(active_.size());
+  const auto gradients =
+      constraint_columns(energy_.constraints(now.positions, now.order_parameter));
+  matrix.columns.setZero();
+  matrix.rows.setZero();
+  matrix.corner.setZero();
+  matrix.columns.leftCols(num_active) = gradients;
+  matrix.rows.topRows(num_active) = first * gradients.transpose();
+  if (!is_original && weights.value != 0) {
+    const auto changes =
+        constraint_columns(energy_.constraint_rates(now.positions, now.order_parameter, rates));
+    matrix.rows.topRows(num_active) += weights.value * changes.transpose();
+  }
+  for (Eigen::Index k = 0; k < num_rigid; ++k) {
+    const auto column = graph_.gauge.col(k);
+    if (column.isZero(0)) {
+      matrix.corner(num_active + k, num_active + k) = 1;
+      continue;
+    }
+    for (Eigen::Index i = 0; i < column.size(); ++i) {
+      const auto row = i * block_size() + displacement;
+      matrix.columns(row, num_active + k) = column[i];
+      matrix.rows(num_active + k, row) = first * column[i];
+    }
+  }
+}
+
+bool VariationalProblem::renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) {
+  const Eigen::VectorXd d = component(y, displacement);
+  if (graph_.smallest_cosine(energy_.triangulation(), d) >= smallest_allowed_cosine) return false;
+  const auto velocity = energy_rates(y_rate).velocity;
+  graph_ = make_normal_graph(energy_.triangulation(), graph_.positions(d));
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    const auto row = i * block_size() + displacement;
+    y[row] = 0;
+    y_rate[row] = velocity.row(i).dot(graph_.directions.row(i));
+  }
+  y.tail<num_rigid>().setZero();
+  return true;
+}
+
+}  // namespace vesica::problem
