@@ -79,6 +79,13 @@ std::string numerics_text(const Verdict& verdict) {
   mesh.add("quality", outcome.diagnostics.quality, "{:.3f}")
       .add("at the start", outcome.initial_quality, "{:.3f}");
   mesh.add("smallest", outcome.smallest_quality, "{:.3f}");
+  Row polish("polish");
+  if (const auto& report = outcome.report.polish) {
+    polish.count("iterations", report->iterations).add("gradient", report->gradient, "{:.1e}");
+    polish.add(report->curvature.value < 0 ? "a SADDLE: lowest curvature"
+                                           : "a minimum: lowest curvature",
+               report->curvature.value, "{:.4g}");
+  }
   Row work("work");
   work.count("steps", counts.steps).count("Newton", counts.newton).count("Krylov", counts.krylov);
   work.count("residuals", counts.residuals).count("Jacobians", counts.jacobians);
@@ -88,7 +95,7 @@ std::string numerics_text(const Verdict& verdict) {
   seconds.add("Jacobian", spent.jacobian, "{:.2f}")
       .add("factorisation", spent.factorisation, "{:.2f}");
   seconds.add("solve", spent.solve, "{:.2f}");
-  return velocity.text() + mesh.text() + work.text() + seconds.text();
+  return velocity.text() + mesh.text() + polish.text() + work.text() + seconds.text();
 }
 
 }  // namespace

@@ -152,6 +152,11 @@ void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outco
   file_.set_attribute(group, "steps", static_cast<std::int64_t>(outcome.report.counts.steps));
   file_.set_attribute(group, "quality_initial", outcome.initial_quality);
   file_.set_attribute(group, "quality_smallest", outcome.smallest_quality);
+  if (!outcome.report.polish) return;
+  const solve::Curvature& curvature = outcome.report.polish->curvature;
+  file_.set_attribute(group, "lowest_curvature", curvature.value);
+  if (curvature.mode.size() > 0)
+    file_.write(group + "/least_stable_mode", values_of(curvature.mode));
 }
 
 void TrajectoryFile::flush() {

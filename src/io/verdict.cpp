@@ -72,6 +72,19 @@ void add_shape(JsonWriter& json, const Verdict& verdict) {
   json.end_object();
 }
 
+void add_equilibrium(JsonWriter& json, const solve::StepReport& report) {
+  json.add("gradient", report.gradient);
+  json.begin_object("polish");
+  const auto value = [&](auto member) -> std::optional<double> {
+    if (!report.polish) return std::nullopt;
+    return member(*report.polish);
+  };
+  json.add("iterations", report.polish ? std::optional(report.polish->iterations) : std::nullopt);
+  json.add("gradient", value([](const auto& polish) { return polish.gradient; }));
+  json.add("lowest_curvature", value([](const auto& polish) { return polish.curvature.value; }));
+  json.end_object();
+}
+
 void add_work(JsonWriter& json, const solve::StepReport& report) {
   json.begin_object("counts");
   json.add("steps", report.counts.steps);
@@ -116,6 +129,7 @@ std::string to_json(const Verdict& verdict) {
   add_constraints(json, "multipliers", verdict.multipliers);
   add_constraints(json, "constraints", verdict.outcome.diagnostics.constraint_errors);
   add_velocities(json, verdict);
+  add_equilibrium(json, verdict.outcome.report);
   add_mesh(json, verdict);
   add_shape(json, verdict);
   add_work(json, verdict.outcome.report);

@@ -52,9 +52,13 @@ Eigen::VectorXd VariationalProblem::component(const Eigen::VectorXd& y,
   return strided;
 }
 
+Eigen::VectorXd VariationalProblem::displacements(const Eigen::VectorXd& y) const {
+  return component(y, displacement);
+}
+
 EnergyFields VariationalProblem::fields(const Eigen::VectorXd& y) const {
   EnergyFields fields;
-  fields.positions = graph_.positions(component(y, displacement));
+  fields.positions = graph_.positions(displacements(y));
   fields.moment.resize(graph_.reference.rows(), 3);
   for (Eigen::Index k = 0; k < 3; ++k) fields.moment.col(k) = component(y, k);
   if (model().is_two_phase) fields.order_parameter = component(y, phase);
@@ -63,7 +67,7 @@ EnergyFields VariationalProblem::fields(const Eigen::VectorXd& y) const {
 
 EnergyRates VariationalProblem::energy_rates(const Eigen::VectorXd& y_rate) const {
   EnergyRates rates;
-  rates.velocity = component(y_rate, displacement).asDiagonal() * graph_.directions;
+  rates.velocity = displacements(y_rate).asDiagonal() * graph_.directions;
   if (model().is_two_phase) rates.order_parameter = component(y_rate, phase);
   return rates;
 }
@@ -158,8 +162,8 @@ Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, d
   const auto rates = energy_rates(y_rate);
   const auto gradient = energy_.gradient(now, multipliers(y), rates);
   const auto constraints = energy_.constraints(now.positions, now.order_parameter);
-  const Eigen::VectorXd d = component(y, displacement);
-  const Eigen::VectorXd d_rate = component(y_rate, displacement);
+  const Eigen::VectorXd d = displacements(y);
+  const Eigen::VectorXd d_rate = displacements(y_rate);
   const Eigen::VectorXd mu = y.tail<num_rigid>();
   const Eigen::VectorXd force =
       gradient.positions.cwiseProduct(graph_.directions).rowwise().sum() + graph_.gauge * mu;
@@ -253,7 +257,7 @@ void VariationalProblem::jacobian(const EquationSettings& settings, const Jacobi
 }
 
 bool VariationalProblem::renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) {
-  const Eigen::VectorXd d = component(y, displacement);
+  const Eigen::VectorXd d = displacements(y);
   if (graph_.smallest_cosine(energy_.triangulation(), d) >= smallest_allowed_cosine) return false;
   const auto velocity = energy_rates(y_rate).velocity;
   graph_ = make_normal_graph(energy_.triangulation(), graph_.positions(d));

@@ -36,6 +36,11 @@ class IdaStepper final : public Stepper {
   void restart();
   void reinitialise(double initial_step);
   void renew_coordinates();
+  [[nodiscard]] double last_step_size() const;
+  void take_implicit_step(double size);
+  [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;
+  [[nodiscard]] StepReport polish_weak_form();
+  [[nodiscard]] StepReport polish_energy();
   void configure_ida();
   void configure_linear_solver();
   [[nodiscard]] Eigen::VectorXd error_tolerances() const;
@@ -56,6 +61,7 @@ class IdaStepper final : public Stepper {
   bool has_stepped_ = false;
   SolverCounts earlier_counts_;  // of IDA before its last initialisation
   double total_seconds_ = 0;
+  std::optional<problem::EnergyParts> polished_energy_;
   std::exception_ptr fatal_;   // thrown in a callback, rethrown after the C call
   std::string last_trouble_;   // text of the last RecoverableError
   sundials::Context context_;  // SUNDIALS objects in the order of dependence

@@ -45,4 +45,10 @@ Eigen::VectorXd NewtonSystem::solve(const Eigen::VectorXd& b) {
   return solver_.solve(b);
 }
 
+Eigen::VectorXd NewtonSystem::solve_accurately(const Eigen::VectorXd& b) {
+  const ScopedTimer timer(seconds_.solve);
+  const Eigen::VectorXd x = solver_.solve(b);
+  return x + solver_.solve(b - matrix_.multiply(x));
+}
+
 }  // namespace vesica::solve

@@ -36,6 +36,9 @@ class NewtonSystem {
   /// Solves with the last factors.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b);
 
+  /// The same with one step of iterative refinement.
+  [[nodiscard]] Eigen::VectorXd solve_accurately(const Eigen::VectorXd& b);
+
   [[nodiscard]] const SolverCounts& counts() const { return counts_; }
   [[nodiscard]] const SolverSeconds& seconds() const { return seconds_; }
 

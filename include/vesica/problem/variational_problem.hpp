@@ -30,6 +30,8 @@ class VariationalProblem final : public FlowProblem {
   [[nodiscard]] const model::Model& model() const override { return energy_.model(); }
   [[nodiscard]] const EnergyProblem& energy_problem() const { return energy_; }
   [[nodiscard]] const NormalGraph& graph() const { return graph_; }
+  /// The displacements d in a vector of the unknowns, shape (N).
+  [[nodiscard]] Eigen::VectorXd displacements(const Eigen::VectorXd& y) const;
   [[nodiscard]] int block_size() const override { return model().is_two_phase ? 5 : 4; }
   [[nodiscard]] Eigen::Index num_nodal() const override;
   [[nodiscard]] Eigen::Index num_multipliers() const override;

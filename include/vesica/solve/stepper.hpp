@@ -17,6 +17,17 @@ struct SolverCounts {
   long jacobians = 0;       ///< Jacobian assemblies
   long factorisations = 0;  ///< numerical factorisations
   long failures = 0;        ///< failed error tests and failed Newton iterations together
+
+  SolverCounts& operator+=(const SolverCounts& more) {
+    steps += more.steps;
+    newton += more.newton;
+    krylov += more.krylov;
+    residuals += more.residuals;
+    jacobians += more.jacobians;
+    factorisations += more.factorisations;
+    failures += more.failures;
+    return *this;
+  }
 };
 
 /// Wall-clock seconds by part.
@@ -26,6 +37,29 @@ struct SolverSeconds {
   double jacobian = 0;
   double factorisation = 0;
   double solve = 0;
+
+  SolverSeconds& operator+=(const SolverSeconds& more) {
+    total += more.total;
+    residual += more.residual;
+    jacobian += more.jacobian;
+    factorisation += more.factorisation;
+    solve += more.solve;
+    return *this;
+  }
+};
+
+/// The direction, along the constraints, in which the energy curves least.
+struct Curvature {
+  double value = 0;      ///< eigenvalue, negative at a saddle [1/time]
+  Eigen::VectorXd mode;  ///< its normal displacement at the nodes, shape (N), largest modulus 1
+};
+
+/// What the polish of an equilibrium found.
+struct PolishReport {
+  bool is_converged = false;
+  int iterations = 0;   ///< Newton iterations; of the weak form: implicit steps
+  double gradient = 0;  ///< |dL| / |dE|; of the weak form: ||v_nu|| over the norm of the pressure
+  Curvature curvature;  ///< lowest of the discrete energy
 };
 
 enum class StepStatus { accepted, failed };
@@ -41,7 +75,8 @@ struct StepReport {
   std::optional<double> gradient;
   SolverCounts counts;  ///< totals after the step
   SolverSeconds seconds;
-  std::string reason;  ///< for a failed step: call, code by name, and what to try
+  std::optional<PolishReport> polish;  ///< after a finish() that polished
+  std::string reason;                  ///< for a failed step: call, code by name, and what to try
 };
 
 /// Advances a State that it owns. One of the four abstract classes of the library.

@@ -1,0 +1,217 @@
+#include "vesica/solve/polish.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <random>
+
+#include "newton_system.hpp"
+#include "vesica/problem/scales.hpp"
+#include "vesica/problem/variational_problem.hpp"
+
+namespace vesica::solve {
+
+namespace {
+
+constexpr int max_iterations = 20;
+constexpr int max_halvings = 6;
+constexpr double gradient_tolerance = 1e-10;  // |dL| / |dE|; Newton's last step goes far below 1e-8
+constexpr double constraint_tolerance = 1e-12;
+constexpr double largest_displacement = 0.1;  // in a step, of R_c
+
+/// The shift of the inverse iteration, in 1/time: above the fastest growth to be expected.
+constexpr double shift = 100;
+constexpr int krylov_dimension = 60;
+constexpr double eigenvalue_tolerance = 1e-6;
+
+problem::EquationSettings at_rest() {
+  problem::EquationSettings settings;
+  settings.form = problem::ConstraintForm::original;
+  return settings;
+}
+
+/// The equations of the equilibrium on one normal graph.
+class Optimality {
+ public:
+  Optimality(const SolverOptions& options, const model::Model& model, const problem::State& state,
+             const mesh::Positions& reference)
+      : scales_(problem::scales_of(model, state)),
+        time_(state.time),
+        problem_(state.triangulation, model, reference, options.threads),
+        system_(problem_, options.linear_solver),
+        y_(problem_.initial_values(state)),
+        rest_(Eigen::VectorXd::Zero(y_.size())) {}
+
+  [[nodiscard]] const problem::VariationalProblem& problem() const { return problem_; }
+  [[nodiscard]] const NewtonSystem& system() const { return system_; }
+  [[nodiscard]] const Eigen::VectorXd& y() const { return y_; }
+  [[nodiscard]] double time() const { return time_; }
+
+  [[nodiscard]] PolishReport solve();
+  [[nodiscard]] Curvature lowest_curvature();
+
+ private:
+  struct Errors {
+    double gradient = 0;    // |dL| / |dE|
+    double constraint = 0;  // largest of all border equations, in units of R_c
+    [[nodiscard]] bool are_small() const {
+      return gradient < gradient_tolerance && constraint < constraint_tolerance;
+    }
+    [[nodiscard]] double size() const { return gradient + constraint; }
+  };
+
+  [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& y) {
+    return system_.residual(at_rest(), time_, y, rest_);
+  }
+  [[nodiscard]] Errors errors(const Eigen::VectorXd& residual) const;
+  [[nodiscard]] double allowed_fraction(const Eigen::VectorXd& change) const;
+  [[nodiscard]] Eigen::VectorXd metric_times(const linalg::BorderedMatrix& metric,
+                                             const Eigen::VectorXd& z) const;
+
+  problem::Scales scales_;
+  double time_;
+  problem::VariationalProblem problem_;
+  NewtonSystem system_;
+  Eigen::VectorXd y_;
+  Eigen::VectorXd rest_;
+};
+
+Optimality::Errors Optimality::errors(const Eigen::VectorXd& residual) const {
+  const auto nodal = problem_.num_nodal();
+  Eigen::VectorXd without_multipliers = y_;
+  without_multipliers.tail(problem_.num_multipliers()).setZero();
+  const double scale =
+      problem_.residual(at_rest(), time_, without_multipliers, rest_).head(nodal).norm();
+  const double natural = scales_.energy / scales_.length;
+  Errors result;
+  result.gradient = residual.head(nodal).norm() / std::max(scale, natural);
+  const double length = std::min(1.0, scales_.length);
+  result.constraint = residual.tail(problem_.num_multipliers()).lpNorm<Eigen::Infinity>() /
+                      (length * length * length);
+  return result;
+}
+
+double Optimality::allowed_fraction(const Eigen::VectorXd& change) const {
+  double largest = 0;
+  for (Eigen::Index row = 3; row < problem_.num_nodal(); row += problem_.block_size())
+    largest = std::max(largest, std::abs(change[row]));
+  return std::min(1.0, largest_displacement * scales_.length / largest);
+}
+
+PolishReport Optimality::solve() {
+  PolishReport report;
+  Eigen::VectorXd now = residual(y_);
+  Errors error = errors(now);
+  while (!error.are_small() && report.iterations < max_iterations) {
+    ++report.iterations;
+    system_.set_up(at_rest(), {1, 0}, y_, rest_);
+    const Eigen::VectorXd change = system_.solve_accurately(now);
+    double fraction = allowed_fraction(change);
+    bool is_better = false;
+    for (int halving = 0; halving < max_halvings && !is_better; ++halving, fraction /= 2) {
+      const Eigen::VectorXd trial = y_ - fraction * change;
+      const Eigen::VectorXd there = residual(trial);
+      const Errors trial_error = errors(there);
+      is_better = trial_error.size() < error.size();
+      if (!is_better) continue;
+      y_ = trial;
+      now = there;
+      error = trial_error;
+    }
+    if (!is_better) break;
+  }
+  report.gradient = error.gradient;
+  report.is_converged = error.gradient < 1e-8 && error.constraint < 1e-9;
+  return report;
+}
+
+/// The metric acts on displacements and order parameter only.
+Eigen::VectorXd Optimality::metric_times(const linalg::BorderedMatrix& metric,
+                                         const Eigen::VectorXd& z) const {
+  Eigen::VectorXd masked = z.cwiseProduct(problem_.differential_mask());
+  masked.tail(problem_.num_multipliers()).setZero();
+  Eigen::VectorXd product = metric.multiply(masked).cwiseProduct(problem_.differential_mask());
+  product.tail(problem_.num_multipliers()).setZero();
+  return product;
+}
+
+/// Lanczos' method for (H + s M)^-1 M on the tangent space of constraints and gauge, in the inner
+/// product of M, with full reorthogonalisation. Its extreme eigenvalues are 1 / (theta + s).
+Curvature Optimality::lowest_curvature() {
+  const double s = shift / scales_.time();
+  auto metric = problem_.make_matrix();
+  problem_.jacobian(at_rest(), {0, 1}, y_, rest_, metric);
+  system_.set_up(at_rest(), {1, s}, y_, rest_);
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(y_.size());
+  for (Eigen::Index row = 0; row < problem_.num_nodal(); ++row) start[row] = uniform(engine);
+  const auto apply = [&](const Eigen::VectorXd& z) {
+    return system_.solve(metric_times(metric, z));
+  };
+  std::vector<Eigen::VectorXd> basis;
+  std::vector<Eigen::VectorXd> products;  // M times the basis
+  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(krylov_dimension, krylov_dimension);
+  Eigen::VectorXd next = apply(start);
+  double value = 0;
+  Curvature result;
+  for (int k = 0; k < krylov_dimension; ++k) {
+    Eigen::VectorXd product = metric_times(metric, next);
+    const double length = std::sqrt(next.dot(product));
+    if (!(length > 0)) break;
+    basis.push_back(next / length);
+    products.push_back(product / length);
+    next = apply(basis.back());
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      for (std::size_t i = 0; i < basis.size(); ++i) {
+        const double coefficient = products[i].dot(next);
+        projected(static_cast<Eigen::Index>(i), k) += coefficient;
+        next -= coefficient * basis[i];
+      }
+    }
+    const Eigen::MatrixXd square = projected.topLeftCorner(k + 1, k + 1);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (square + square.transpose()));
+    // theta < -s shows as a negative eigenvalue of the inverse
+    const bool is_beyond = eigen.eigenvalues()[0] < 0;
+    const Eigen::Index which = is_beyond ? 0 : k;
+    const double last = value;
+    value = 1 / eigen.eigenvalues()[which] - s;
+    if (k + 1 < krylov_dimension && std::abs(value - last) > eigenvalue_tolerance * s) continue;
+    Eigen::VectorXd vector = Eigen::VectorXd::Zero(y_.size());
+    for (std::size_t i = 0; i < basis.size(); ++i)
+      vector += eigen.eigenvectors()(static_cast<Eigen::Index>(i), which) * basis[i];
+    result.mode = problem_.displacements(vector);
+    break;
+  }
+  result.value = value;
+  if (result.mode.size() > 0) {
+    const double largest = result.mode.lpNorm<Eigen::Infinity>();
+    if (largest > 0) result.mode /= largest;
+  }
+  return result;
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const SolverOptions& options, const model::Model& model,
+                             const problem::State& state, const mesh::Positions& reference) {
+  Optimality optimality(options, model, state, reference);
+  Equilibrium result;
+  result.report = optimality.solve();
+  result.report.curvature = optimality.lowest_curvature();
+  const auto& y = optimality.y();
+  result.state.time = state.time;
+  result.state.triangulation = state.triangulation;
+  result.state.values = optimality.problem().values(y);
+  result.state.rates = optimality.problem().rates(y, Eigen::VectorXd::Zero(y.size()));
+  result.energy = *optimality.problem().energy(y);
+  result.counts = optimality.system().counts();
+  result.counts.newton = result.report.iterations;
+  result.seconds = optimality.system().seconds();
+  return result;
+}
+
+Curvature lowest_curvature(const SolverOptions& options, const model::Model& model,
+                           const problem::State& state) {
+  return Optimality(options, model, state, state.values.positions).lowest_curvature();
+}
+
+}  // namespace vesica::solve
