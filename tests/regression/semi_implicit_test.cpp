@@ -10,7 +10,12 @@
 namespace vesica {
 namespace {
 
-/// Keeps the largest constraint error and the largest rise of the energy in a step.
+/// Below this normal velocity over R_c the shape is nearly at rest: F is then within 1e-3 of its
+/// final value.
+constexpr double resting_velocity = 0.1;
+
+/// Keeps the largest constraint error and the largest rises of the energy in a step, while the
+/// shape moves and at rest.
 class Watch final : public relax::Observer {
  public:
   void observe(const relax::StepView& view) override {
@@ -20,12 +25,15 @@ class Watch final : public relax::Observer {
       for (const auto& error : {errors.volume, errors.area, errors.phase})
         constraint_error = std::max(constraint_error, std::abs(error.value()));
     }
-    if (view.report.counts.steps > 1) energy_rise = std::max(energy_rise, energy - energy_);
+    auto& rise =
+        view.diagnostics.velocity.normal_rigid_free > resting_velocity ? moving_rise : resting_rise;
+    if (view.report.counts.steps > 1) rise = std::max(rise, (energy - energy_) / energy);
     energy_ = energy;
   }
 
   double constraint_error = 0;
-  double energy_rise = -std::numeric_limits<double>::infinity();
+  double moving_rise = -std::numeric_limits<double>::infinity();  // relative
+  double resting_rise = moving_rise;
 
  private:
   double energy_ = 0;
@@ -56,9 +64,10 @@ void run_as_the_paper(int resolution, double end_time, PaperRun& run) {
   run.state = stepper->state();
 }
 
-/// The weak form is not the gradient of the discrete energy and the mesh slides underneath it: at
-/// rest the energy may rise by this much in a step.
-constexpr double energy_noise = 1e-6;
+/// At rest F rises and falls by some 5e-8 of itself in a step: the multipliers change only every
+/// few steps, when the constraints have drifted by 1e-8, alpha jumps by factors of ten, and kappa
+/// answers both through the damping term of (3.4a).
+constexpr double energy_noise = 1e-7;
 
 TEST(SemiImplicitRegression, FollowsThePaperOnACoarseMesh) {
   PaperRun run;
@@ -66,7 +75,7 @@ TEST(SemiImplicitRegression, FollowsThePaperOnACoarseMesh) {
   ASSERT_EQ(run.outcome.status, relax::RunStatus::end_time) << run.outcome.reason;
   EXPECT_EQ(run.outcome.report.counts.steps, 200);
   EXPECT_LT(run.watch.constraint_error, 1e-8);
-  EXPECT_LT(run.watch.energy_rise, 0);
+  EXPECT_LT(run.watch.moving_rise, 0);
   EXPECT_GT(run.outcome.smallest_quality, 0.45);
 }
 
@@ -78,7 +87,8 @@ TEST(SlowSemiImplicitRegression, ReachesTheFirstRowOfTable1) {
   EXPECT_NEAR(run.outcome.diagnostics.energy.total(), test::table_1_energy, 5e-3);
   EXPECT_NEAR(*run.state.values.multipliers.volume, test::table_1_volume_multiplier, 1e-2);
   EXPECT_LT(run.watch.constraint_error, 1e-8);
-  EXPECT_LT(run.watch.energy_rise, energy_noise);
+  EXPECT_LT(run.watch.moving_rise, 0);
+  EXPECT_LT(run.watch.resting_rise, energy_noise);
   EXPECT_GT(run.outcome.smallest_quality, 0.45);
 }
 
