@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "quadratic_shape.hpp"
+
 namespace vesica::mesh {
 namespace {
 
@@ -9,22 +11,7 @@ namespace {
 constexpr std::array<double, 3> gauss_points = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
-using Shape = std::array<double, 6>;
-
-Shape shape_values(double u, double v) {
-  const double w = 1 - u - v;
-  return {w * (2 * w - 1), u * (2 * u - 1), v * (2 * v - 1), 4 * w * u, 4 * u * v, 4 * v * w};
-}
-Shape shape_u(double u, double v) {
-  const double w = 1 - u - v;
-  return {1 - 4 * w, 4 * u - 1, 0, 4 * (w - u), 4 * v, -4 * v};
-}
-Shape shape_v(double u, double v) {
-  const double w = 1 - u - v;
-  return {1 - 4 * w, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (w - v)};
-}
-
-Eigen::Vector3d combine(const Shape& shape, const QuadraticTriangle& nodes,
+Eigen::Vector3d combine(const ShapeFunctions& shape, const QuadraticTriangle& nodes,
                         const Positions& positions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < 6; ++i) sum += shape[i] * positions.row(nodes[i]).transpose();
