@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,6 +13,7 @@
 #include "box_tree.hpp"
 #include "curved_triangle.hpp"
 #include "quadratic_shape.hpp"
+#include "vertex_stars.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::mesh {
@@ -18,6 +21,7 @@ namespace vesica::mesh {
 struct SurfaceLocator::Index {
   std::vector<CurvedTriangle> triangles;
   BoxTree tree;
+  VertexStars stars;
 
   [[nodiscard]] const CurvedTriangle& triangle(NodeIndex t) const {
     return triangles[static_cast<std::size_t>(t)];
@@ -71,6 +75,30 @@ std::optional<SurfaceLocation> search(const Index& index, const Eigen::Vector3d&
                          index.triangle(found).point(parameters), std::sqrt(smallest)};
 }
 
+constexpr double at_the_rim = 1e-9;
+constexpr int max_walk = 100;
+
+/// Triangles that share the corner or the side that a location lies on; none for one inside.
+std::vector<NodeIndex> neighbours_at(const Triangulation& triangulation, const VertexStars& stars,
+                                     const SurfaceLocation& location) {
+  const std::array<double, 3> barycentric = {1 - location.u - location.v, location.u, location.v};
+  const QuadraticTriangle& nodes =
+      triangulation.triangles()[static_cast<std::size_t>(location.triangle)];
+  std::vector<NodeIndex> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (barycentric[i] > at_the_rim) corners.push_back(nodes[i]);
+  }
+  std::vector<NodeIndex> neighbours;
+  if (corners.size() == 3) return neighbours;
+  for (const NodeIndex t : stars[corners.front()]) {
+    const QuadraticTriangle& other = triangulation.triangles()[static_cast<std::size_t>(t)];
+    const bool has_last =
+        std::find(other.begin(), other.begin() + 3, corners.back()) != other.begin() + 3;
+    if (t != location.triangle && has_last) neighbours.push_back(t);
+  }
+  return neighbours;
+}
+
 }  // namespace
 
 SurfaceLocator::SurfaceLocator(std::shared_ptr<const Triangulation> triangulation,
@@ -78,7 +106,8 @@ SurfaceLocator::SurfaceLocator(std::shared_ptr<const Triangulation> triangulatio
     : triangulation_(std::move(triangulation)), positions_(std::move(positions)) {
   std::vector<CurvedTriangle> triangles = curved_triangles(*triangulation_, positions_);
   BoxTree tree(boxes_of(triangles));
-  index_ = std::make_shared<const Index>(Index{std::move(triangles), std::move(tree)});
+  index_ = std::make_shared<const Index>(
+      Index{std::move(triangles), std::move(tree), VertexStars(*triangulation_)});
 }
 
 SurfaceLocation SurfaceLocator::closest(const Eigen::Vector3d& point) const {
@@ -95,6 +124,26 @@ SurfaceLocation SurfaceLocator::closest(const Eigen::Vector3d& point,
     return index_->triangle(t).area_vector(parameters).dot(normal) > 0;
   });
   return found ? *found : closest(point);
+}
+
+SurfaceLocation SurfaceLocator::closest_from(const SurfaceLocation& start,
+                                             const Eigen::Vector3d& point) const {
+  const auto on_triangle = [&](NodeIndex t) {
+    const auto found = index_->triangle(t).closest(point);
+    return SurfaceLocation{t, found.parameters.x(), found.parameters.y(),
+                           index_->triangle(t).point(found.parameters),
+                           std::sqrt(found.squared_distance)};
+  };
+  SurfaceLocation best = on_triangle(start.triangle);
+  for (int step = 0; step < max_walk; ++step) {
+    const SurfaceLocation last = best;
+    for (const NodeIndex t : neighbours_at(*triangulation_, index_->stars, last)) {
+      const SurfaceLocation candidate = on_triangle(t);
+      if (candidate.distance < best.distance) best = candidate;
+    }
+    if (best.triangle == last.triangle) break;
+  }
+  return best;
 }
 
 Eigen::Vector3d SurfaceLocator::normal(const SurfaceLocation& location) const {

@@ -39,6 +39,12 @@ class SurfaceLocator {
   [[nodiscard]] SurfaceLocation closest(const Eigen::Vector3d& point,
                                         const Eigen::Vector3d& normal) const;
 
+  /// Walks from the triangle of `start` over its neighbours as long as they come closer to `point`:
+  /// a local minimum of the distance on the same sheet. Several times faster than `closest` for
+  /// points within an element or two of `start`. `point` must be finite.
+  [[nodiscard]] SurfaceLocation closest_from(const SurfaceLocation& start,
+                                             const Eigen::Vector3d& point) const;
+
   /// Outward unit normal x_u x x_v / |x_u x x_v| of the curved triangle.
   [[nodiscard]] Eigen::Vector3d normal(const SurfaceLocation& location) const;
 

@@ -135,6 +135,27 @@ TEST(SurfaceLocator, KeepsToTheSheetWithTheGivenNormal) {
   EXPECT_NEAR(lower.distance, 0.08, 5e-3);
 }
 
+TEST(SurfaceLocator, WalksToTheClosestPointFromNearby) {
+  const Surface surface = make_shape(test::shape(ShapeKind::torus, 12));
+  const SurfaceLocator locator = locator_of(surface);
+  std::mt19937 random(5);
+  for (const QuadraticTriangle& nodes : surface.triangulation->triangles()) {
+    const Vector3d from = surface.positions.row(nodes[0]);  // a corner belongs to six triangles
+    const Vector3d point = from + random_point(random, 0.05);
+    const SurfaceLocation walked = locator.closest_from(locator.closest(from), point);
+    // Off the surface the edges, where the normal jumps, have local minima of their own.
+    ASSERT_NEAR(walked.distance, locator.closest(point).distance, 1e-5);
+  }
+}
+
+TEST(SurfaceLocator, StaysOnTheSheetWhereTheWalkStarts) {
+  ShapeOptions options = test::shape(ShapeKind::ellipsoid, 6);
+  options.semi_axes << 1, 1, 0.05;
+  const SurfaceLocator locator = locator_of(make_shape(options));
+  const SurfaceLocation lower = locator.closest({0.1, 0.2, -1});
+  EXPECT_LT(locator.closest_from(lower, {0.15, 0.2, 0.03}).point.z(), 0);
+}
+
 TEST(SurfaceLocator, FallsBackToThePlainClosestPointWithoutASuitableNormal) {
   const SurfaceLocator locator = locator_of(test::octahedron());
   const SurfaceLocation found = locator.closest({1, 1, 1}, {0, 0, 0});
