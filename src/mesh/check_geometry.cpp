@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "disjoint_sets.hpp"
+#include "side_normals.hpp"
 #include "sub_triangles.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/mesh/quality.hpp"
@@ -74,35 +75,9 @@ void check_element(const QuadraticTriangle& nodes, std::size_t t, const Position
   }
 }
 
-/// Half an edge and the unit normal of the sub-triangle at it.
-struct SideNormal {
-  NodeIndex corner;
-  NodeIndex middle;
-  NodeIndex other_corner;
-  Eigen::Vector3d normal;
-};
-
-std::vector<SideNormal> sorted_side_normals(const Surface& surface) {
-  std::vector<SideNormal> sides;
-  sides.reserve(6 * surface.triangulation->triangles().size());
-  for (const QuadraticTriangle& nodes : surface.triangulation->triangles()) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d normal =
-          area_vector(sub_triangle(nodes, sub_triangles[i], surface.positions)).normalized();
-      const std::size_t next = (i + 1) % 3;
-      const std::size_t last = (i + 2) % 3;
-      sides.push_back({nodes[i], nodes[3 + i], nodes[next], normal});
-      sides.push_back({nodes[i], nodes[3 + last], nodes[last], normal});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const SideNormal& a, const SideNormal& b) {
-    return std::pair(a.corner, a.middle) < std::pair(b.corner, b.middle);
-  });
-  return sides;
-}
-
 void check_neighbours(const Surface& surface) {
-  const std::vector<SideNormal> sides = sorted_side_normals(surface);
+  const std::vector<SideNormal> sides =
+      sorted_side_normals(*surface.triangulation, surface.positions);
   for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
     if (sides[i].normal.dot(sides[i + 1].normal) < cosine_150_degrees) {
       const auto [low, high] = std::minmax(sides[i].corner, sides[i].other_corner);

@@ -1,6 +1,9 @@
 #include "sub_triangles.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+
+#include "quadratic_shape.hpp"
 
 namespace vesica::mesh {
 namespace {
@@ -9,22 +12,7 @@ namespace {
 constexpr std::array<double, 3> gauss_points = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
-using Shape = std::array<double, 6>;
-
-Shape shape_values(double u, double v) {
-  const double w = 1 - u - v;
-  return {w * (2 * w - 1), u * (2 * u - 1), v * (2 * v - 1), 4 * w * u, 4 * u * v, 4 * v * w};
-}
-Shape shape_u(double u, double v) {
-  const double w = 1 - u - v;
-  return {1 - 4 * w, 4 * u - 1, 0, 4 * (w - u), 4 * v, -4 * v};
-}
-Shape shape_v(double u, double v) {
-  const double w = 1 - u - v;
-  return {1 - 4 * w, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (w - v)};
-}
-
-Eigen::Vector3d combine(const Shape& shape, const QuadraticTriangle& nodes,
+Eigen::Vector3d combine(const ShapeFunctions& shape, const QuadraticTriangle& nodes,
                         const Positions& positions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < 6; ++i) sum += shape[i] * positions.row(nodes[i]).transpose();
@@ -42,6 +30,18 @@ std::array<Eigen::Vector3d, 3> sub_triangle(const QuadraticTriangle& nodes,
 
 Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
+double smallest_sine(const std::array<Eigen::Vector3d, 3>& p) {
+  const std::array<double, 3> sides = {(p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
+                                       (p[0] - p[2]).norm()};
+  const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  double smallest = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double product = sides[i] * sides[(i + 1) % 3];
+    smallest = std::min(smallest, product > 0 ? twice_area / product : 0.0);
+  }
+  return smallest;
 }
 
 double volume_below(const QuadraticTriangle& nodes, const Positions& positions) {

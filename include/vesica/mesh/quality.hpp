@@ -13,6 +13,12 @@ namespace vesica::mesh {
 /// 0 when a sub-triangle has no area.
 [[nodiscard]] double quality(const Triangulation& triangulation, const Positions& positions);
 
+/// Smallest cosine of the angle between the flat normals of two neighbouring sub-triangles, inside
+/// a triangle and across the edges between triangles; in [-1, 1]. Near -1 for a fold, which (3.5)
+/// does not see; -1 when a sub-triangle has no area.
+[[nodiscard]] double smallest_normal_cosine(const Triangulation& triangulation,
+                                            const Positions& positions);
+
 /// Longest and mean distance between two corners of one triangle [length].
 [[nodiscard]] double longest_edge(const Triangulation& triangulation, const Positions& positions);
 [[nodiscard]] double mean_edge(const Triangulation& triangulation, const Positions& positions);

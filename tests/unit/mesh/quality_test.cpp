@@ -73,6 +73,38 @@ TEST(Quality, MeasuresEdgesAndAreasOfAnOctahedron) {
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 4 * std::sqrt(3.0), 1e-13);
 }
 
+TEST(SmallestNormalCosine, IsThatOfTheEdgesOfAnOctahedron) {
+  const Surface surface = octahedron();
+  // Flat faces agree inside; neighbours' normals (1, 1, 1) and (1, 1, -1) have the cosine 1/3.
+  EXPECT_NEAR(smallest_normal_cosine(*surface.triangulation, surface.positions), 1.0 / 3, 1e-14);
+}
+
+TEST(SmallestNormalCosine, TendsToOneOnASmoothSurface) {
+  ShapeOptions options;
+  options.kind = ShapeKind::sphere;
+  options.resolution = 8;
+  const Surface surface = make_shape(options);
+  const double cosine = smallest_normal_cosine(*surface.triangulation, surface.positions);
+  EXPECT_GT(cosine, 0.98);
+  EXPECT_LT(cosine, 1.0);
+}
+
+TEST(SmallestNormalCosine, SeesAFoldThatQualityMisses) {
+  Surface surface = octahedron();
+  // The corner +x goes to the centre: its four sub-triangles stay equilateral and turn over.
+  surface.positions.row(0).setZero();
+  EXPECT_NEAR(quality(*surface.triangulation, surface.positions), std::sqrt(0.75), 1e-14);
+  EXPECT_NEAR(smallest_normal_cosine(*surface.triangulation, surface.positions), -1.0 / 3, 1e-14);
+}
+
+TEST(SmallestNormalCosine, IsMinusOneForASubTriangleWithoutArea) {
+  Surface surface = octahedron();
+  const QuadraticTriangle nodes = surface.triangulation->triangles()[0];
+  surface.positions.row(nodes[3]) =
+      0.5 * (surface.positions.row(nodes[0]) + surface.positions.row(nodes[5]));
+  EXPECT_EQ(smallest_normal_cosine(*surface.triangulation, surface.positions), -1.0);
+}
+
 TEST(EnclosedVolume, IsExactForFlatFacesAndDoesNotDependOnTheOrigin) {
   Surface surface = octahedron();
   EXPECT_NEAR(enclosed_volume(*surface.triangulation, surface.positions), 4.0 / 3, 1e-14);
