@@ -10,6 +10,7 @@
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/fem/mass_matrix.hpp"
+#include "vesica/problem/normal_graph.hpp"
 
 namespace vesica::problem {
 
@@ -205,6 +206,19 @@ EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
   if (model_.is_two_phase) sum.line = line;
   check_finite(std::isfinite(sum.total()), "the value");
   return sum;
+}
+
+Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const {
+  const auto normals = nodal_normals(*triangulation_, fields.positions);
+  const auto& material = model_.material;
+  Eigen::VectorXd curvature(normals.rows());
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    const double c = model_.is_two_phase ? fields.order_parameter[i] : 1.0;
+    curvature[i] = model::interpolate(material.spontaneous_curvature, c) -
+                   fields.moment.row(i).dot(normals.row(i)) /
+                       model::interpolate(material.bending_rigidity, c);
+  }
+  return curvature;
 }
 
 EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,

@@ -102,15 +102,7 @@ Fields VariationalProblem::values(const Eigen::VectorXd& y) const {
   Fields result;
   result.positions = now.positions;
   result.order_parameter = now.order_parameter;
-  const auto normals = nodal_normals(energy_.triangulation(), now.positions);
-  const auto& material = model().material;
-  result.mean_curvature.resize(normals.rows());
-  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
-    const double c = model().is_two_phase ? now.order_parameter[i] : 1.0;
-    result.mean_curvature[i] =
-        model::interpolate(material.spontaneous_curvature, c) -
-        now.moment.row(i).dot(normals.row(i)) / model::interpolate(material.bending_rigidity, c);
-  }
+  result.mean_curvature = energy_.mean_curvature(now);
   const auto weights = multipliers(y);
   const auto value = [&](int k) -> std::optional<double> {
     if (std::find(active_.begin(), active_.end(), k) == active_.end()) return std::nullopt;

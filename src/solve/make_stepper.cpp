@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "ceres_stepper.hpp"
 #include "ida_stepper.hpp"
 #include "semi_implicit_stepper.hpp"
 #include "vesica/core/error.hpp"
@@ -36,6 +37,8 @@ std::unique_ptr<Stepper> make_stepper(const SolverOptions& options, const model:
   switch (options.method) {
     case Method::semi_implicit:
       return std::make_unique<SemiImplicitStepper>(options, model, std::move(start));
+    case Method::minimize:
+      return std::make_unique<CeresStepper>(options, model, std::move(start));
     case Method::ida:
       break;
   }

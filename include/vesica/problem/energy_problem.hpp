@@ -63,6 +63,8 @@ class EnergyProblem {
   [[nodiscard]] EnergyFields fields(const mesh::Positions& positions,
                                     const Eigen::VectorXd& order_parameter) const;
   [[nodiscard]] EnergyParts energy(const EnergyFields& fields) const;
+  /// kappa = kappa_s - p . nu / k_kappa at the nodes, shape (N) [1/length].
+  [[nodiscard]] Eigen::VectorXd mean_curvature(const EnergyFields& fields) const;
   /// Derivative of E_h + sum lambda_i C_i with respect to the nodal values of x, p and c. With
   /// rates also the two terms of the gradient flow: int (x'.nu) nu . xi and eps omega int c' phi.
   [[nodiscard]] EnergyFields gradient(const EnergyFields& fields, const Multipliers& multipliers,

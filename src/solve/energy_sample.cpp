@@ -1,0 +1,123 @@
+#include "energy_sample.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "vesica/core/error.hpp"
+
+namespace vesica::solve {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> constraint_names{"volume", "area", "phase_difference"};
+constexpr std::size_t phase = 2;
+
+std::array<std::optional<model::Ramp>, 3> ramps(const model::Targets& targets) {
+  return {targets.volume, targets.area, targets.phase_difference};
+}
+
+}  // namespace
+
+EnergySample sample_energy(const problem::EnergyProblem& problem, const mesh::Positions& positions,
+                           const Eigen::VectorXd& order_parameter) {
+  EnergySample sample;
+  sample.fields = problem.fields(positions, order_parameter);
+  sample.energy = problem.energy(sample.fields);
+  sample.gradient = problem.gradient(sample.fields, {});
+  sample.constraints = problem.constraints(positions, order_parameter);
+  return sample;
+}
+
+Eigen::VectorXd along_graph(const problem::NormalGraph& graph, const mesh::Positions& positions,
+                            const Eigen::VectorXd& order_parameter, bool is_two_phase) {
+  const auto n = positions.rows();
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(is_two_phase ? 2 * n : n);
+  result.head(n) = positions.cwiseProduct(graph.directions).rowwise().sum();
+  if (is_two_phase && order_parameter.size() > 0) result.tail(n) = order_parameter;
+  return result;
+}
+
+ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& scales) {
+  const auto targets = ramps(model.targets);
+  const double length = scales.length;
+  const std::array<double, 3> units{length * length * length, length * length, length * length};
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!targets[i] || (i == phase && !model.is_two_phase)) continue;
+    if (!targets[i]->is_constant()) {
+      throw ConfigError(
+          fmt::format("constraints.{} = [{}, {}, {}, {}]: must be constant for solver.method = "
+                      "minimize",
+                      constraint_names[i], targets[i]->from, targets[i]->to, targets[i]->start,
+                      targets[i]->end));
+    }
+    active_.push_back(i);
+  }
+  targets_.resize(size());
+  units_.resize(size());
+  for (Eigen::Index k = 0; k < size(); ++k) {
+    targets_[k] = targets[active_[static_cast<std::size_t>(k)]]->to;
+    units_[k] = units[active_[static_cast<std::size_t>(k)]];
+  }
+}
+
+Eigen::VectorXd ConstraintSet::errors(const problem::ConstraintEvaluation& evaluation) const {
+  Eigen::VectorXd errors = -targets_;
+  for (Eigen::Index k = 0; k < size(); ++k)
+    errors[k] += evaluation.values[active_[static_cast<std::size_t>(k)]];
+  return errors;
+}
+
+Eigen::VectorXd ConstraintSet::relative_errors(
+    const problem::ConstraintEvaluation& evaluation) const {
+  Eigen::VectorXd relative = errors(evaluation).cwiseAbs();
+  for (Eigen::Index k = 0; k < size(); ++k) {
+    relative[k] /= active_[static_cast<std::size_t>(k)] == phase ? evaluation.values[1]
+                                                                 : std::abs(targets_[k]);
+  }
+  return relative;
+}
+
+double ConstraintSet::largest_error(const problem::ConstraintEvaluation& evaluation) const {
+  return size() == 0 ? 0.0 : relative_errors(evaluation).maxCoeff();
+}
+
+std::string ConstraintSet::worst_name(const problem::ConstraintEvaluation& evaluation) const {
+  Eigen::Index worst = 0;
+  relative_errors(evaluation).maxCoeff(&worst);
+  return std::string(constraint_names[active_[static_cast<std::size_t>(worst)]]);
+}
+
+Eigen::MatrixXd ConstraintSet::gradients(const problem::NormalGraph& graph,
+                                         const problem::ConstraintEvaluation& evaluation,
+                                         bool is_two_phase) const {
+  const auto n = graph.reference.rows();
+  Eigen::MatrixXd result(is_two_phase ? 2 * n : n, size());
+  for (Eigen::Index k = 0; k < size(); ++k) {
+    const auto i = active_[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd none;
+    result.col(k) = along_graph(graph, evaluation.positions[i],
+                                i == phase ? evaluation.order_parameter : none, is_two_phase);
+  }
+  return result;
+}
+
+problem::PerConstraint ConstraintSet::named(const Eigen::VectorXd& multipliers) const {
+  problem::PerConstraint result;
+  const std::array<std::optional<double>*, 3> entries{&result.volume, &result.area, &result.phase};
+  for (Eigen::Index k = 0; k < size(); ++k)
+    *entries[active_[static_cast<std::size_t>(k)]] = multipliers[k];
+  return result;
+}
+
+problem::Multipliers ConstraintSet::all(const Eigen::VectorXd& multipliers) const {
+  problem::Multipliers result{};
+  for (Eigen::Index k = 0; k < size(); ++k)
+    result[active_[static_cast<std::size_t>(k)]] = multipliers[k];
+  return result;
+}
+
+}  // namespace vesica::solve
