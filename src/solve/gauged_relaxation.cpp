@@ -62,14 +62,13 @@ Eigen::VectorXd GaugedRelaxation::residual(const problem::EquationSettings& sett
 }
 
 linalg::BorderedMatrix GaugedRelaxation::make_matrix() const {
-  auto matrix = inner_.make_matrix();
+  linalg::BorderedMatrix matrix;
+  matrix.block = inner_.make_matrix().block;
   const auto block = block_size();
   const auto inner = inner_.num_multipliers();
-  matrix.columns.conservativeResize(Eigen::NoChange, num_multipliers());
-  matrix.rows.conservativeResize(num_multipliers(), Eigen::NoChange);
+  matrix.columns = Eigen::MatrixXd::Zero(num_nodal(), num_multipliers());
+  matrix.rows = Eigen::MatrixXd::Zero(num_multipliers(), num_nodal());
   matrix.corner = Eigen::MatrixXd::Zero(num_multipliers(), num_multipliers());
-  matrix.columns.rightCols<6>().setZero();
-  matrix.rows.bottomRows<6>().setZero();
   for (Eigen::Index k = 0; k < 6; ++k) {
     if (graph_.gauge.col(k).isZero(0)) matrix.corner(inner + k, inner + k) = 1;
     for (Eigen::Index i = 0; i < graph_.gauge.rows(); ++i) {
