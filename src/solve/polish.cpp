@@ -19,7 +19,8 @@ constexpr double largest_displacement = 0.1;  // in a step, of R_c
 
 /// The shift of the inverse iteration, in 1/time: above the fastest growth to be expected.
 constexpr double shift = 100;
-constexpr int krylov_dimension = 60;
+constexpr int min_krylov_dimension = 20;  // a start poor in the lowest mode may stall before
+constexpr int krylov_dimension = 80;
 constexpr double eigenvalue_tolerance = 1e-6;
 
 problem::EquationSettings at_rest() {
@@ -167,14 +168,18 @@ Curvature Optimality::lowest_curvature() {
         next -= coefficient * basis[i];
       }
     }
-    const Eigen::MatrixXd square = projected.topLeftCorner(k + 1, k + 1);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (square + square.transpose()));
+    // the coefficients fill the upper triangle of a symmetric matrix
+    const Eigen::MatrixXd square =
+        projected.topLeftCorner(k + 1, k + 1).selfadjointView<Eigen::Upper>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square);
     // theta < -s shows as a negative eigenvalue of the inverse
     const bool is_beyond = eigen.eigenvalues()[0] < 0;
     const Eigen::Index which = is_beyond ? 0 : k;
     const double last = value;
     value = 1 / eigen.eigenvalues()[which] - s;
-    if (k + 1 < krylov_dimension && std::abs(value - last) > eigenvalue_tolerance * s) continue;
+    if (k + 1 < krylov_dimension &&
+        (k < min_krylov_dimension || std::abs(value - last) > eigenvalue_tolerance * s))
+      continue;
     Eigen::VectorXd vector = Eigen::VectorXd::Zero(y_.size());
     for (std::size_t i = 0; i < basis.size(); ++i)
       vector += eigen.eigenvectors()(static_cast<Eigen::Index>(i), which) * basis[i];
