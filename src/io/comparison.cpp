@@ -75,11 +75,14 @@ std::string agreement(const Difference& difference) {
   return text;
 }
 
+/// A flow may come to rest on a saddle, so the word is equilibria.
 std::string disagreement(const Difference& difference, const std::vector<std::string>& found) {
-  return fmt::format("{} and {} found different local minima, {} the lower one: {}",
-                     difference.first, difference.second,
-                     difference.energy < 0 ? difference.second : difference.first,
-                     fmt::join(found, ", "));
+  return fmt::format(
+      "{} and {} found different equilibria (two local minima, unless one is a saddle), {} the "
+      "lower "
+      "one: {}",
+      difference.first, difference.second,
+      difference.energy < 0 ? difference.second : difference.first, fmt::join(found, ", "));
 }
 
 void conclude(const ComparedRun& first, const ComparedRun& second,

@@ -100,7 +100,7 @@ std::string energy_script(const Comparison& comparison) {
              "set output 'energy.png'\n"
              "lowest = {}\n"
              "set multiplot layout 2,1 title 'Energy against seconds (wall clock)'\n"
-             "set title\nset xlabel\nset logscale x\nunset key\n"
+             "set title\nset xlabel\nset bmargin\nset logscale x\nunset key\n"
              "set ylabel 'energy'\n",
              lowest) +
          joined(totals) +
@@ -114,7 +114,8 @@ std::string energy_script(const Comparison& comparison) {
 std::string plot_script(const Comparison& comparison) {
   return "# Draws profiles.png and energy.png: gnuplot comparison.gp\n"
          "set datafile separator ','\n"
-         "set key outside bottom center horizontal\n"
+         "set key at screen 0.5, screen 0.02 center bottom horizontal\n"
+         "set bmargin 5.5\n"
          "set grid lt 1 lw 0.5 lc rgb '#cccccc'\n" +
          profiles_script(comparison) + energy_script(comparison);
 }
