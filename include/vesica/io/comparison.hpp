@@ -24,7 +24,7 @@ struct ComparedRun {
 
 /// Two runs found the same equilibrium when all of these hold and the phases have the same numbers
 /// of connected domains. The defaults are wide enough for two discretisations of one shape on
-/// meshes of a thousand nodes, which differ by 2e-4 in energy and by 1e-3 in shape, and far below
+/// meshes of a thousand nodes, which differ by 2e-4 in energy and less in shape, and far below
 /// what tells local minima apart.
 struct EquilibriumTolerances {
   double energy = 1e-3;    ///< relative difference
