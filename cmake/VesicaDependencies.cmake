@@ -5,6 +5,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(METIS REQUIRED)
 
 # The SUNDIALS package asks for OpenMP on behalf of components that are not used here, and Clang has OpenMP only with
@@ -32,6 +33,7 @@ target_link_libraries(
   INTERFACE Threads::Threads
             fmt::fmt
             tomlplusplus::tomlplusplus
+            nlohmann_json::nlohmann_json
             METIS::METIS
             SUNDIALS::generic
             SUNDIALS::ida

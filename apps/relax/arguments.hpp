@@ -2,8 +2,8 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "common/run_options.hpp"
 #include "vesica/io/config.hpp"
 
 namespace vesica {
@@ -11,10 +11,7 @@ namespace vesica {
 /// The command line of vesica-relax.
 struct Arguments {
   std::string case_file;
-  std::vector<std::string> overrides;  ///< "table.key=value"
-  std::string directory;               ///< empty: that of the case file
-  bool overwrites = false;
-  bool is_quiet = false;
+  RunOptions options;
 };
 
 /// Arguments of a run, or the exit status when there is nothing to run (help, version, template,

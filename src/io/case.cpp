@@ -91,34 +91,50 @@ void untie_sphere(Case& vesicle, const model::Measures& start) {
       "volume and area of a sphere are one constraint: constraints.area is left free");
 }
 
+model::Measures measures_of(const problem::State& state) {
+  const problem::Diagnostics measured = problem::measure({{}, state.is_two_phase(), {}}, state);
+  return {measured.volume, measured.area, measured.phase_difference};
+}
+
+/// Material and targets; a phase target that needs the phase field stays absent before there is
+/// one.
+model::Model model_of(const RunConfig& config, const model::Measures& start) {
+  model::Model model;
+  model.is_two_phase = config.phase.has_value();
+  model.targets = model::make_targets(config.constraints, start, model.is_two_phase);
+  const double area = model.targets.area ? model.targets.area->value(0) : start.area;
+  model.material = model::resolved_material(config.material, area);
+  return model;
+}
+
+Eigen::VectorXd order_parameter_of(const RunConfig& config, const mesh::Surface& surface,
+                                   const model::Model& model) {
+  const std::optional<model::Ramp>& target = model.targets.phase_difference;
+  return problem::initial_phase(*config.phase, surface, model.material.interface_width,
+                                target ? std::optional(target->value(0)) : std::nullopt);
+}
+
 }  // namespace
+
+Case case_of(const RunConfig& config, problem::State start) {
+  const model::Measures measures = measures_of(start);
+  Case vesicle;
+  vesicle.model = model_of(config, measures);
+  vesicle.start = std::move(start);
+  vesicle.warnings =
+      warnings_of(vesicle.model, {vesicle.start.triangulation, vesicle.start.values.positions});
+  untie_sphere(vesicle, measures);
+  return vesicle;
+}
 
 Case make_case(const RunConfig& config) {
   const mesh::Surface surface = mesh::make_shape(config.shape);
-  Case vesicle;
-  vesicle.start = state_at_rest(surface);
-  const problem::Diagnostics measured =
-      problem::measure({config.material, false, {}}, vesicle.start);
-  model::Measures measures{measured.volume, measured.area, std::nullopt};
-
-  vesicle.model.is_two_phase = config.phase.has_value();
-  model::Targets targets =
-      model::make_targets(config.constraints, measures, vesicle.model.is_two_phase);
-  const double area = targets.area ? targets.area->value(0) : measures.area;
-  vesicle.model.material = model::resolved_material(config.material, area);
+  problem::State start = state_at_rest(surface);
   if (config.phase) {
-    const std::optional<double> phase_target =
-        targets.phase_difference ? std::optional(targets.phase_difference->value(0)) : std::nullopt;
-    add_order_parameter(vesicle.start, problem::initial_phase(
-                                           *config.phase, surface,
-                                           vesicle.model.material.interface_width, phase_target));
-    measures.phase_difference = problem::measure(vesicle.model, vesicle.start).phase_difference;
-    targets = model::make_targets(config.constraints, measures, true);
+    add_order_parameter(start,
+                        order_parameter_of(config, surface, model_of(config, measures_of(start))));
   }
-  vesicle.model.targets = targets;
-  vesicle.warnings = warnings_of(vesicle.model, surface);
-  untie_sphere(vesicle, measures);
-  return vesicle;
+  return case_of(config, std::move(start));
 }
 
 }  // namespace vesica::io

@@ -55,6 +55,10 @@ void JsonWriter::add(std::string_view key, std::optional<int> value) {
   value ? add(key, *value) : add_raw(key, "null");
 }
 
+void JsonWriter::add(std::string_view key, std::optional<bool> value) {
+  add_raw(key, !value ? "null" : *value ? "true" : "false");
+}
+
 void JsonWriter::add(std::string_view key, std::string_view value) { add_raw(key, quoted(value)); }
 
 }  // namespace vesica::io

@@ -20,6 +20,7 @@ class JsonWriter {
   void add(std::string_view key, int value) { add(key, static_cast<long>(value)); }
   void add(std::string_view key, std::optional<int> value);
   void add(std::string_view key, std::string_view value);
+  void add(std::string_view key, std::optional<bool> value);
   /// The whole object; every begun object must have ended.
   [[nodiscard]] std::string text() const { return "{" + body_ + "\n}\n"; }
 

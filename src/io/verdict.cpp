@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/json_writer.hpp"
+#include "io/verdict_fields.hpp"
 #include "vesica/io/run_folder.hpp"
 
 namespace vesica::io {
@@ -119,8 +119,7 @@ Verdict make_verdict(relax::Outcome outcome, std::string_view method, const mode
   return verdict;
 }
 
-std::string to_json(const Verdict& verdict) {
-  JsonWriter json;
+void add_verdict(JsonWriter& json, const Verdict& verdict) {
   json.add("status", status_name(verdict.outcome.status));
   json.add("reason", verdict.outcome.reason);
   json.add("time", verdict.time);
@@ -133,6 +132,11 @@ std::string to_json(const Verdict& verdict) {
   add_mesh(json, verdict);
   add_shape(json, verdict);
   add_work(json, verdict.outcome.report);
+}
+
+std::string to_json(const Verdict& verdict) {
+  JsonWriter json;
+  add_verdict(json, verdict);
   return json.text();
 }
 

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "connected_components.hpp"
 #include "vesica/fem/quadratic_triangle.hpp"
+#include "vesica/fem/surface_element.hpp"
 
 namespace vesica::problem {
 
@@ -19,11 +22,7 @@ struct CrossSections::Crossing {
   std::uint64_t line;  ///< the two nodes
   Eigen::Vector3d point;
   Eigen::Vector3d tangent;  ///< unit tangent of the cut, or 0 where the surface touches the plane
-};
-
-struct CrossSections::Cut {
-  double perimeter = 0;
-  std::vector<std::array<std::uint64_t, 2>> pieces;  ///< lines that each piece joins
+  double order_parameter;
 };
 
 namespace {
@@ -53,19 +52,50 @@ double arc_length(const Eigen::Vector3d& chord, const Eigen::Vector3d& tangent_a
   return half > 1e-8 ? chord.norm() * half / std::sin(half) : chord.norm();
 }
 
-int count_loops(const std::vector<std::array<std::uint64_t, 2>>& pieces) {
-  std::vector<std::uint64_t> lines;
-  for (const auto& piece : pieces) lines.insert(lines.end(), piece.begin(), piece.end());
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  const auto number = [&](std::uint64_t line) {
-    return static_cast<std::size_t>(std::lower_bound(lines.begin(), lines.end(), line) -
-                                    lines.begin());
-  };
-  std::vector<std::array<std::size_t, 2>> links;
-  for (const auto& [a, b] : pieces) links.push_back({number(a), number(b)});
-  return num_components(lines.size(), links);
-}
+/// The two lines, numbered from 0, that each piece of a cut joins.
+class Pieces {
+ public:
+  explicit Pieces(const std::vector<std::array<std::uint64_t, 2>>& pieces) {
+    std::vector<std::uint64_t> lines;
+    for (const auto& piece : pieces) lines.insert(lines.end(), piece.begin(), piece.end());
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    num_lines_ = lines.size();
+    const auto number = [&](std::uint64_t line) {
+      return static_cast<std::size_t>(std::lower_bound(lines.begin(), lines.end(), line) -
+                                      lines.begin());
+    };
+    for (const auto& [a, b] : pieces) links_.push_back({number(a), number(b)});
+  }
+
+  [[nodiscard]] int num_loops() const { return num_components(num_lines_, links_); }
+
+  /// The lines of each loop in order; the last one is the first once more.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> loops() const {
+    std::vector<std::vector<std::size_t>> pieces_at(num_lines_);
+    for (std::size_t piece = 0; piece < links_.size(); ++piece)
+      for (const std::size_t line : links_[piece]) pieces_at[line].push_back(piece);
+    std::vector<bool> is_done(links_.size(), false);
+    std::vector<std::vector<std::size_t>> result;
+    for (std::size_t start = 0; start < links_.size(); ++start) {
+      if (is_done[start]) continue;
+      std::vector<std::size_t> loop{links_[start][0]};
+      for (std::size_t piece = start; !is_done[piece];) {
+        is_done[piece] = true;
+        const auto& [a, b] = links_[piece];
+        loop.push_back(loop.back() == a ? b : a);
+        for (const std::size_t next : pieces_at[loop.back()])
+          if (!is_done[next]) piece = next;
+      }
+      result.push_back(std::move(loop));
+    }
+    return result;
+  }
+
+ private:
+  std::size_t num_lines_ = 0;
+  std::vector<std::array<std::size_t, 2>> links_;
+};
 
 }  // namespace
 
@@ -96,32 +126,54 @@ CrossSections::Crossing CrossSections::crossing(const mesh::QuadraticTriangle& t
   result.point = interpolate(shape.value);
   result.tangent =
       interpolate(shape.du).cross(interpolate(shape.dv)).cross(direction_).normalized();
+  const auto& c = state_.values.order_parameter;
+  result.order_parameter = state_.is_two_phase() ? fem::combine<1>(c, triangle, shape.value)[0] : 0;
   return result;
 }
 
-void CrossSections::cut_triangle(const mesh::QuadraticTriangle& triangle, double height,
-                                 Cut& cut) const {
-  std::array<bool, 6> above{};
-  for (std::size_t i = 0; i < 6; ++i) above[i] = heights_[triangle[i]] > height;
-  for (const auto& corners : sub_triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto alone = corners[k];
-      const auto next = corners[(k + 1) % 3];
-      const auto last = corners[(k + 2) % 3];
-      if (above[alone] == above[next] || above[alone] == above[last]) continue;
-      const auto from = crossing(triangle, alone, next, height);
-      const auto to = crossing(triangle, alone, last, height);
-      cut.perimeter += arc_length(to.point - from.point, from.tangent, to.tangent);
-      cut.pieces.push_back({from.line, to.line});
+template <class Add>
+void CrossSections::for_each_piece(double height, const Add& add) const {
+  for (const auto& triangle : state_.triangulation->triangles()) {
+    std::array<bool, 6> above{};
+    for (std::size_t i = 0; i < 6; ++i) above[i] = heights_[triangle[i]] > height;
+    for (const auto& corners : sub_triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto alone = corners[k];
+        const auto next = corners[(k + 1) % 3];
+        const auto last = corners[(k + 2) % 3];
+        if (above[alone] == above[next] || above[alone] == above[last]) continue;
+        add(crossing(triangle, alone, next, height), crossing(triangle, alone, last, height));
+      }
     }
   }
 }
 
 CrossSection CrossSections::at(double height) const {
-  Cut cut;
-  for (const auto& triangle : state_.triangulation->triangles())
-    cut_triangle(triangle, height, cut);
-  return {cut.perimeter, count_loops(cut.pieces)};
+  double perimeter = 0;
+  std::vector<std::array<std::uint64_t, 2>> pieces;
+  for_each_piece(height, [&](const Crossing& from, const Crossing& to) {
+    perimeter += arc_length(to.point - from.point, from.tangent, to.tangent);
+    pieces.push_back({from.line, to.line});
+  });
+  return {perimeter, Pieces(pieces).num_loops()};
+}
+
+std::vector<SectionLoop> CrossSections::loops_at(double height) const {
+  std::map<std::uint64_t, SectionPoint> points;  // in the order of the numbers of the lines
+  std::vector<std::array<std::uint64_t, 2>> pieces;
+  for_each_piece(height, [&](const Crossing& from, const Crossing& to) {
+    points.insert({from.line, {from.point, from.order_parameter}});
+    points.insert({to.line, {to.point, to.order_parameter}});
+    pieces.push_back({from.line, to.line});
+  });
+  std::vector<SectionPoint> numbered;
+  for (const auto& [line, point] : points) numbered.push_back(point);
+  std::vector<SectionLoop> result;
+  for (const auto& lines : Pieces(pieces).loops()) {
+    SectionLoop& loop = result.emplace_back();
+    for (const std::size_t line : lines) loop.push_back(numbered[line]);
+  }
+  return result;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "long_axis.hpp"
 #include "vesica/problem/state.hpp"
@@ -14,6 +15,15 @@ struct CrossSection {
   int num_loops = 0;
 };
 
+/// A point of such a curve.
+struct SectionPoint {
+  Eigen::Vector3d position;
+  double order_parameter = 0;  ///< 0 for a single-phase vesicle
+};
+
+/// A closed curve: the last point is the first once more.
+using SectionLoop = std::vector<SectionPoint>;
+
 /// Cuts of the quadratic surface by the planes x . direction = height.
 class CrossSections {
  public:
@@ -24,14 +34,17 @@ class CrossSections {
   /// the circular arc that turns by the angle between its end tangents, so the perimeter's error
   /// falls with the fourth power of the mesh size.
   [[nodiscard]] CrossSection at(double height) const;
+  /// The curves of a cut as polygons whose corners are the crossings of the edges.
+  [[nodiscard]] std::vector<SectionLoop> loops_at(double height) const;
 
  private:
   struct Crossing;
-  struct Cut;
 
   [[nodiscard]] Crossing crossing(const mesh::QuadraticTriangle& triangle, std::size_t a,
                                   std::size_t b, double height) const;
-  void cut_triangle(const mesh::QuadraticTriangle& triangle, double height, Cut& cut) const;
+  /// Calls add(from, to) for every piece of the cut.
+  template <class Add>
+  void for_each_piece(double height, const Add& add) const;
 
   const State& state_;
   Eigen::Vector3d direction_;

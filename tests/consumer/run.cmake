@@ -18,7 +18,9 @@ foreach(program IN LISTS programs)
   execute_process(COMMAND "${program}" WORKING_DIRECTORY "${WORK_DIR}" COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
-# The installed program finds the installed library.
-if(EXISTS "${WORK_DIR}/prefix/bin/vesica-relax")
-  execute_process(COMMAND "${WORK_DIR}/prefix/bin/vesica-relax" --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-endif()
+# The installed programs find the installed library.
+foreach(program IN ITEMS vesica-relax vesica-compare)
+  if(EXISTS "${WORK_DIR}/prefix/bin/${program}")
+    execute_process(COMMAND "${WORK_DIR}/prefix/bin/${program}" --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+endforeach()

@@ -21,4 +21,8 @@ struct Case {
 /// do not fit together, IoError when a surface or phase file cannot be read.
 [[nodiscard]] Case make_case(const RunConfig& config);
 
+/// The same with a start that is there already: positions and, for two phases, order parameter.
+/// Throws ConfigError.
+[[nodiscard]] Case case_of(const RunConfig& config, problem::State start);
+
 }  // namespace vesica::io

@@ -1,0 +1,67 @@
+#include "run_case.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "signals.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/io/progress.hpp"
+#include "vesica/io/run_folder.hpp"
+#include "vesica/io/trajectory_writer.hpp"
+#include "vesica/relax/damping_controller.hpp"
+#include "vesica/relax/relax.hpp"
+#include "vesica/solve/make_stepper.hpp"
+
+namespace vesica {
+namespace {
+
+relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
+                       solve::Stepper& stepper, relax::Controller& interrupt, bool is_quiet) {
+  const auto style =
+      ::isatty(STDOUT_FILENO) != 0 ? io::ProgressStyle::rewriting : io::ProgressStyle::sparse;
+  io::Progress progress(std::cout, is_quiet ? io::ProgressStyle::none : style);
+  io::TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
+  relax::DampingController damping(config.damping,
+                                   problem::scales_of(vesicle.model, vesicle.start));
+  const std::array<relax::Observer*, 2> observers{&progress, &trajectory};
+  const std::array<relax::Controller*, 2> controllers{&damping, &interrupt};
+  return relax::relax(stepper, vesicle.model, config.stop, observers, controllers);
+}
+
+RunResult relaxed(const io::RunConfig& config, const io::Case& vesicle,
+                  relax::Controller& interrupt, bool is_quiet) {
+  const std::string_view method = name_of(config.solver.method);
+  std::unique_ptr<solve::Stepper> stepper;
+  try {
+    const DelayedSignals delayed;
+    stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
+  } catch (const SolverError& error) {
+    return {io::make_verdict(io::record_failed_start(config, vesicle, error.what()), method,
+                             vesicle.model, vesicle.start),
+            vesicle.start};
+  }
+  io::create_run_folder(config.output.directory);
+  relax::Outcome outcome = compute(config, vesicle, *stepper, interrupt, is_quiet);
+  return {io::make_verdict(std::move(outcome), method, vesicle.model, stepper->state()),
+          stepper->state()};
+}
+
+}  // namespace
+
+void check_run(const io::RunConfig& config, const std::string& case_file, bool overwrites) {
+  io::check_run_folder(config.output.directory, case_file, overwrites);
+  (void)relax::resolved_damping(config.damping);
+}
+
+RunResult run_case(const io::RunConfig& config, const io::Case& vesicle,
+                   relax::Controller& interrupt, bool is_quiet) {
+  RunResult result = relaxed(config, vesicle, interrupt, is_quiet);
+  io::write_verdict(config, result.verdict);
+  return result;
+}
+
+}  // namespace vesica

@@ -1,0 +1,190 @@
+#include "vesica/io/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/common_mesh.hpp"
+#include "io/verdict_fields.hpp"
+
+namespace vesica::io {
+namespace {
+
+/// Over the larger modulus; 0 for two zeros.
+double relative_difference(double first, double second) {
+  const double scale = std::max(std::abs(first), std::abs(second));
+  return scale == 0 ? 0 : (second - first) / scale;
+}
+
+std::optional<double> relative_difference(const std::optional<double>& first,
+                                          const std::optional<double>& second) {
+  if (!first || !second) return std::nullopt;
+  return relative_difference(*first, *second);
+}
+
+problem::PerConstraint relative_difference(const problem::PerConstraint& first,
+                                           const problem::PerConstraint& second) {
+  return {relative_difference(first.volume, second.volume),
+          relative_difference(first.area, second.area),
+          relative_difference(first.phase, second.phase)};
+}
+
+bool has_converged(const ComparedRun& run) {
+  return run.verdict.outcome.status == relax::RunStatus::converged;
+}
+
+/// "shapes differ by 0.21 R_c" for everything that is beyond its tolerance.
+std::vector<std::string> contradictions(const Difference& difference, const Verdict& first,
+                                        const Verdict& second,
+                                        const EquilibriumTolerances& tolerances) {
+  std::vector<std::string> found;
+  // written so that a value that is no number is a contradiction
+  if (!(std::abs(difference.relative_energy) <= tolerances.energy)) {
+    found.push_back(fmt::format("energies differ by {:.1e} (relative, tolerance {:g})",
+                                std::abs(difference.relative_energy), tolerances.energy));
+  }
+  if (!(difference.shape.l2 <= tolerances.shape_l2)) {
+    found.push_back(fmt::format("shapes by {:.1e} R_c (tolerance {:g})", difference.shape.l2,
+                                tolerances.shape_l2));
+  }
+  const double phase_l2 = difference.shape.phase_l2.value_or(0);
+  if (!(phase_l2 <= tolerances.phase_l2)) {
+    found.push_back(
+        fmt::format("phase fields by {:.1e} (tolerance {:g})", phase_l2, tolerances.phase_l2));
+  }
+  if (first.shape.domains_1 != second.shape.domains_1 ||
+      first.shape.domains_2 != second.shape.domains_2) {
+    found.push_back(
+        fmt::format("numbers of domains: {} + {} and {} + {}", first.shape.domains_1.value_or(0),
+                    first.shape.domains_2.value_or(0), second.shape.domains_1.value_or(0),
+                    second.shape.domains_2.value_or(0)));
+  }
+  return found;
+}
+
+std::string agreement(const Difference& difference) {
+  std::string text = fmt::format(
+      "{} and {} found the same equilibrium: energies agree to {:.1e} (relative), shapes to {:.1e} "
+      "R_c",
+      difference.first, difference.second, std::abs(difference.relative_energy),
+      difference.shape.l2);
+  if (difference.shape.phase_l2)
+    text += fmt::format(", phase fields to {:.1e}", *difference.shape.phase_l2);
+  return text;
+}
+
+/// A flow may come to rest on a saddle, so the word is equilibria.
+std::string disagreement(const Difference& difference, const std::vector<std::string>& found) {
+  return fmt::format(
+      "{} and {} found different equilibria (two local minima, unless one is a saddle), {} the "
+      "lower "
+      "one: {}",
+      difference.first, difference.second,
+      difference.energy < 0 ? difference.second : difference.first, fmt::join(found, ", "));
+}
+
+void conclude(const ComparedRun& first, const ComparedRun& second,
+              const EquilibriumTolerances& tolerances, Difference& difference) {
+  for (const ComparedRun* run : {&first, &second}) {
+    if (has_converged(*run)) continue;
+    difference.conclusion = fmt::format(
+        "whether {} and {} find the same equilibrium is open: {} has not converged ({})",
+        first.name, second.name, run->name, status_name(run->verdict.outcome.status));
+    return;
+  }
+  const auto found = contradictions(difference, first.verdict, second.verdict, tolerances);
+  difference.same_equilibrium = found.empty();
+  difference.conclusion = found.empty() ? agreement(difference) : disagreement(difference, found);
+}
+
+Difference difference_of(const ComparedRun& first, const ComparedRun& second,
+                         const EquilibriumTolerances& tolerances) {
+  const auto [a, b] = on_common_mesh(first, second);
+  Difference difference;
+  difference.first = first.name;
+  difference.second = second.name;
+  difference.energy = b.energy - a.energy;
+  difference.relative_energy = relative_difference(a.energy, b.energy);
+  difference.multipliers =
+      relative_difference(a.state.values.multipliers, b.state.values.multipliers);
+  difference.shape = problem::shape_distance(a.state, b.state);
+  conclude(first, second, tolerances, difference);
+  return difference;
+}
+
+ComparedRun named(std::string name, const std::filesystem::path& folder, FinishedRun run) {
+  return {std::move(name),        folder,
+          std::move(run.model),   std::move(run.state),
+          std::move(run.verdict), std::move(run.history)};
+}
+
+void add_difference(JsonWriter& json, const Difference& difference) {
+  json.begin_object("energy");
+  json.add("absolute", difference.energy);
+  json.add("relative", difference.relative_energy);
+  json.end_object();
+  json.begin_object("multipliers");
+  json.add("volume", difference.multipliers.volume);
+  json.add("area", difference.multipliers.area);
+  json.add("phase", difference.multipliers.phase);
+  json.end_object();
+  json.add("shape_l2", difference.shape.l2);
+  json.add("shape_hausdorff", difference.shape.hausdorff);
+  json.add("phase_l2", difference.shape.phase_l2);
+  json.add("same_equilibrium", difference.same_equilibrium);
+  json.add("conclusion", difference.conclusion);
+}
+
+}  // namespace
+
+Comparison compare(std::vector<ComparedRun> runs, const EquilibriumTolerances& tolerances) {
+  Comparison comparison;
+  for (std::size_t i = 1; i < runs.size(); ++i)
+    comparison.differences.push_back(difference_of(runs.front(), runs[i], tolerances));
+  comparison.runs = std::move(runs);
+  return comparison;
+}
+
+std::vector<ComparedRun> read_runs(const std::filesystem::path& first,
+                                   const std::filesystem::path& second) {
+  FinishedRun a = read_run(first);
+  FinishedRun b = read_run(second);
+  const auto is_minimizer = [](const FinishedRun& run) { return run.verdict.method == "minimize"; };
+  const bool are_of_two_kinds = is_minimizer(a) != is_minimizer(b);
+  const bool is_a_minimizer = is_minimizer(a);
+  const auto name = [&](bool is_minimizer_run, const char* otherwise) {
+    return are_of_two_kinds ? (is_minimizer_run ? "minimize" : "flow") : otherwise;
+  };
+  std::vector<ComparedRun> runs;
+  runs.push_back(named(name(is_a_minimizer, "first"), first, std::move(a)));
+  runs.push_back(named(name(!is_a_minimizer, "second"), second, std::move(b)));
+  return runs;
+}
+
+std::string to_json(const Comparison& comparison) {
+  JsonWriter json;
+  for (const ComparedRun& run : comparison.runs) {
+    json.begin_object(run.name);
+    json.add("folder", run.folder.string());
+    add_verdict(json, run.verdict);
+    json.end_object();
+  }
+  for (const Difference& difference : comparison.differences) {
+    const bool is_main = &difference == &comparison.differences.front();
+    json.begin_object(is_main ? "difference" : "difference_" + difference.second);
+    add_difference(json, difference);
+    json.end_object();
+  }
+  return json.text();
+}
+
+int exit_status(const Comparison& comparison) {
+  int worst = 0;
+  for (const ComparedRun& run : comparison.runs)
+    worst = std::max(worst, exit_status(run.verdict.outcome));
+  return worst;
+}
+
+}  // namespace vesica::io

@@ -1,0 +1,210 @@
+#include "vesica/io/run_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "io/hdf5_reader.hpp"
+#include "io/json_reader.hpp"
+#include "vesica/core/error.hpp"
+
+namespace vesica::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_has_ended(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw IoError(fmt::format("{}: no such folder", folder.string()));
+  for (const char* name : {"trajectory.h5", "case.toml", "verdict.json"}) {
+    if (fs::is_regular_file(folder / name, ignored)) continue;
+    const bool goes_on = fs::exists(folder / "trajectory.part.h5", ignored);
+    throw IoError(fmt::format("{}: holds no finished run ({} is missing{})", folder.string(), name,
+                              goes_on ? "; the run goes on or broke off" : ""));
+  }
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The frames of a trajectory as states.
+class FrameReader {
+ public:
+  explicit FrameReader(const hdf5::ReadableFile& file) : file_(file) {
+    if (file.count("/frames") == 0) file.refuse("/frames", "is empty");
+  }
+  [[nodiscard]] problem::State first() const { return frame(0); }
+  [[nodiscard]] problem::State last() const { return frame(file_.count("/frames") - 1); }
+
+ private:
+  [[nodiscard]] problem::State frame(std::size_t index) const {
+    const std::string group = fmt::format("/frames/{:06}", index);
+    problem::State state;
+    state.time = file_.number_attribute(group, "time");
+    state.damping = file_.number_attribute(group, "damping");
+    state.values.positions = positions(group + "/positions");
+    const Eigen::Index num_nodes = state.values.positions.rows();
+    state.triangulation = triangulation(group + "/mesh/triangles", num_nodes);
+    state.values.mean_curvature = scalar(group + "/mean_curvature", num_nodes);
+    state.rates.positions = positions(group + "/velocity");
+    state.rates.mean_curvature = Eigen::VectorXd::Zero(num_nodes);
+    if (file_.has(group + "/order_parameter")) {
+      state.values.order_parameter = scalar(group + "/order_parameter", num_nodes);
+      state.rates.order_parameter = Eigen::VectorXd::Zero(num_nodes);
+    }
+    state.values.multipliers = {file_.find_attribute(group, "multiplier_volume"),
+                                file_.find_attribute(group, "multiplier_area"),
+                                file_.find_attribute(group, "multiplier_phase")};
+    return state;
+  }
+
+  [[nodiscard]] mesh::Positions positions(const std::string& path) const {
+    const std::vector<double> values = file_.numbers(path);
+    if (values.size() % 3 != 0) file_.refuse(path, "must have three columns");
+    return Eigen::Map<const mesh::Positions>(values.data(),
+                                             static_cast<Eigen::Index>(values.size() / 3), 3);
+  }
+  [[nodiscard]] Eigen::VectorXd scalar(const std::string& path, Eigen::Index num_nodes) const {
+    Eigen::VectorXd values = vector_of(file_.numbers(path));
+    if (values.size() != num_nodes) file_.refuse(path, "must have one value a node");
+    return values;
+  }
+  [[nodiscard]] std::shared_ptr<const mesh::Triangulation> triangulation(
+      const std::string& path, Eigen::Index num_nodes) const {
+    const std::vector<std::int32_t> nodes = file_.integers(path);
+    if (nodes.size() % 6 != 0) file_.refuse(path, "must have six columns");
+    std::vector<mesh::QuadraticTriangle> triangles(nodes.size() / 6);
+    for (std::size_t i = 0; i < nodes.size(); ++i) triangles[i / 6][i % 6] = nodes[i];
+    try {
+      return std::make_shared<const mesh::Triangulation>(std::move(triangles),
+                                                         static_cast<mesh::NodeIndex>(num_nodes));
+    } catch (const ConfigError& error) {
+      file_.refuse(path, error.what());
+    }
+  }
+
+  const hdf5::ReadableFile& file_;
+};
+
+problem::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
+  return {json.optional_number(object + "/volume"), json.optional_number(object + "/area"),
+          json.optional_number(object + "/phase")};
+}
+
+problem::ShapeNumbers shape_of(const JsonReader& json) {
+  problem::ShapeNumbers shape;
+  shape.characteristic_radius = json.number("/shape/characteristic_radius");
+  shape.reduced_volume = json.number("/shape/reduced_volume");
+  shape.phase_fraction = json.optional_number("/shape/phase_fraction");
+  shape.reduced_line_tension = json.optional_number("/shape/reduced_line_tension");
+  shape.rigidity_ratio = json.optional_number("/shape/rigidity_ratio");
+  shape.saddle_splay_difference = json.optional_number("/shape/saddle_splay_difference");
+  shape.neck_radius = json.optional_number("/shape/neck_radius");
+  shape.length = json.optional_number("/shape/length");
+  shape.domains_1 = json.optional_count("/domains/phase_1");
+  shape.domains_2 = json.optional_count("/domains/phase_2");
+  return shape;
+}
+
+problem::Diagnostics diagnostics_of(const JsonReader& json) {
+  problem::Diagnostics measured;
+  measured.energy = {json.number("/energy/bending"), json.number("/energy/gaussian"),
+                     json.optional_number("/energy/line")};
+  measured.volume = json.number("/shape/volume");
+  measured.area = json.number("/shape/area");
+  measured.phase_difference = json.optional_number("/shape/phase_difference");
+  measured.constraint_errors = per_constraint(json, "/constraints");
+  const double radius = json.number("/shape/characteristic_radius");
+  measured.velocity = {radius * json.number("/normal_velocity_plain"),
+                       radius * json.number("/normal_velocity"),
+                       radius * json.number("/tangential_velocity")};
+  measured.quality = json.number("/mesh/quality");
+  return measured;
+}
+
+solve::StepReport report_of(const JsonReader& json) {
+  solve::StepReport report;
+  report.time = json.number("/time");
+  solve::SolverCounts& counts = report.counts;
+  counts.steps = json.count("/counts/steps");
+  counts.newton = json.count("/counts/newton");
+  counts.krylov = json.count("/counts/krylov");
+  counts.residuals = json.count("/counts/residuals");
+  counts.jacobians = json.count("/counts/jacobians");
+  counts.factorisations = json.count("/counts/factorisations");
+  counts.failures = json.count("/counts/failures");
+  solve::SolverSeconds& seconds = report.seconds;
+  seconds.total = json.number("/seconds/total");
+  seconds.residual = json.number("/seconds/residual");
+  seconds.jacobian = json.number("/seconds/jacobian");
+  seconds.factorisation = json.number("/seconds/factorisation");
+  seconds.solve = json.number("/seconds/solve");
+  return report;
+}
+
+relax::RunStatus status_named(const std::string& name, const fs::path& file) {
+  using relax::RunStatus;
+  for (const RunStatus status :
+       {RunStatus::converged, RunStatus::time_limit, RunStatus::step_limit, RunStatus::stopped,
+        RunStatus::interrupted, RunStatus::numerical_failure}) {
+    if (status_name(status) == name) return status;
+  }
+  throw IoError(fmt::format("{}: /status \"{}\" is not known", file.string(), name));
+}
+
+Verdict read_verdict(const fs::path& file) {
+  const JsonReader json(file);
+  Verdict verdict;
+  verdict.outcome.status = status_named(json.text("/status"), file);
+  verdict.outcome.reason = json.text("/reason");
+  verdict.outcome.diagnostics = diagnostics_of(json);
+  verdict.outcome.report = report_of(json);
+  verdict.outcome.initial_quality = json.number("/mesh/quality_initial");
+  verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
+  verdict.method = json.text("/method");
+  verdict.time = json.number("/time");
+  verdict.multipliers = per_constraint(json, "/multipliers");
+  verdict.shape = shape_of(json);
+  verdict.num_nodes = static_cast<std::int32_t>(json.count("/mesh/nodes"));
+  verdict.num_triangles = static_cast<std::int32_t>(json.count("/mesh/triangles"));
+  return verdict;
+}
+
+EnergyHistory history_of(const hdf5::ReadableFile& file) {
+  return {file.numbers("/series/step"), file.numbers("/series/seconds_total"),
+          file.numbers("/series/energy_total")};
+}
+
+/// The exit status of an interrupted run is 128 + signal.
+int signal_of(const hdf5::ReadableFile& file) {
+  return static_cast<int>(file.number_attribute("/outcome", "exit_status")) - 128;
+}
+
+}  // namespace
+
+EnergyHistory read_history(const fs::path& folder) {
+  return history_of(hdf5::ReadableFile(folder / "trajectory.h5"));
+}
+
+FinishedRun read_run(const fs::path& folder) {
+  check_has_ended(folder);
+  FinishedRun run;
+  run.config = read_config((folder / "case.toml").string(), {});
+  const hdf5::ReadableFile file(folder / "trajectory.h5");
+  const FrameReader frames(file);
+  run.model = case_of(run.config, frames.first()).model;
+  run.state = frames.last();
+  run.verdict = read_verdict(folder / "verdict.json");
+  if (run.verdict.num_nodes != run.state.triangulation->num_nodes())
+    file.refuse("/frames", "and verdict.json differ in the number of nodes");
+  if (run.verdict.outcome.status == relax::RunStatus::interrupted)
+    run.verdict.outcome.signal = signal_of(file);
+  run.history = history_of(file);
+  return run;
+}
+
+}  // namespace vesica::io

@@ -1,0 +1,150 @@
+#include "vesica/io/run_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fake_run.hpp"
+#include "io/json_reader.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/io/run_folder.hpp"
+#include "vesica/io/trajectory_writer.hpp"
+
+namespace vesica::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes a made-up run of a few steps.
+Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int signal = 0) {
+  RunConfig config;
+  config.title = "made up";
+  config.phase.emplace();
+  config.output.directory = folder.string();
+  problem::State state = fake_state();
+  solve::StepReport report = fake_report(0);
+  relax::Outcome outcome = fake_outcome(status);
+  outcome.signal = signal;
+  const problem::Diagnostics measured = fake_diagnostics();
+  TrajectoryWriter writer(folder, config, {});
+  for (long step = 0; step <= 12; ++step) {
+    report = fake_report(step);
+    state.time = 0.125 * static_cast<double>(step);
+    state.values.positions *= 1.001;
+    writer.observe({state, report, measured});
+  }
+  writer.finish({state, report, measured}, outcome);
+  Verdict verdict = make_verdict(outcome, "ida", {}, state);
+  write_verdict(config, verdict);
+  return verdict;
+}
+
+std::string io_error_of(const fs::path& folder) {
+  try {
+    (void)read_run(folder);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "no IoError";
+}
+
+TEST(RunReader, ReadsTheFinalStateBack) {
+  const TemporaryFolder folder;
+  write_fake_run(folder.path(), relax::RunStatus::converged);
+  const FinishedRun run = read_run(folder.path());
+  problem::State expected = fake_state();
+  for (int step = 0; step <= 12; ++step) expected.values.positions *= 1.001;
+  EXPECT_EQ(run.config.title, "made up");
+  EXPECT_TRUE(run.model.is_two_phase);
+  EXPECT_EQ(run.state.time, 1.5);
+  EXPECT_EQ(run.state.damping, 0.75);
+  EXPECT_EQ(run.state.triangulation->triangles()[3], expected.triangulation->triangles()[3]);
+  EXPECT_EQ(run.state.values.positions, expected.values.positions);
+  EXPECT_EQ(run.state.values.mean_curvature, expected.values.mean_curvature);
+  EXPECT_EQ(run.state.values.order_parameter, expected.values.order_parameter);
+  EXPECT_EQ(run.state.rates.positions, expected.rates.positions);
+  EXPECT_EQ(run.state.values.multipliers.volume, 27.5);
+  EXPECT_EQ(run.state.values.multipliers.area, -9.25);
+  EXPECT_EQ(run.state.values.multipliers.phase, std::nullopt);
+}
+
+TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {
+  const TemporaryFolder folder;
+  const Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
+  write_text_file(folder.path() / "again.json", to_json(read_run(folder.path()).verdict));
+  const JsonReader written(folder.path() / "verdict.json");
+  const JsonReader again(folder.path() / "again.json");
+  EXPECT_EQ(again.text("/status"), "converged");
+  EXPECT_EQ(again.text("/reason"), verdict.outcome.reason);
+  EXPECT_EQ(again.text("/method"), "ida");
+  const std::vector<std::string> numbers = written.number_pointers();
+  EXPECT_EQ(again.number_pointers(), numbers);
+  EXPECT_GT(numbers.size(), 40U);
+  for (const std::string& pointer : numbers) {
+    const std::optional<double> value = written.optional_number(pointer);
+    ASSERT_EQ(again.optional_number(pointer).has_value(), value.has_value()) << pointer;
+    if (value) EXPECT_NEAR(again.number(pointer), *value, 1e-14 * std::abs(*value)) << pointer;
+  }
+}
+
+TEST(RunReader, ReadsTheEnergyOfEveryStep) {
+  const TemporaryFolder folder;
+  write_fake_run(folder.path(), relax::RunStatus::step_limit);
+  const FinishedRun run = read_run(folder.path());
+  EXPECT_EQ(run.history.energy, std::vector<double>(13, 58.75));
+  EXPECT_EQ(run.history.seconds, std::vector<double>(13, 0.5));
+  EXPECT_EQ(run.history.step.back(), 12);
+  EXPECT_EQ(read_history(folder.path()).energy, run.history.energy);
+}
+
+TEST(RunReader, KeepsTheExitStatusOfTheRun) {
+  const TemporaryFolder folder;
+  write_fake_run(folder.path(), relax::RunStatus::interrupted, SIGTERM);
+  EXPECT_EQ(exit_status(read_run(folder.path()).verdict.outcome), 143);
+}
+
+TEST(RunReader, TheEnergyOfAFailedStartIsNoNumber) {
+  const TemporaryFolder folder;
+  RunConfig config;
+  config.phase.emplace();
+  config.output.directory = folder.path().string();
+  const Case vesicle = case_of(config, fake_state());
+  write_verdict(config, make_verdict(record_failed_start(config, vesicle, "no values"), "ida",
+                                     vesicle.model, vesicle.start));
+  const FinishedRun run = read_run(folder.path());
+  ASSERT_EQ(run.history.energy.size(), 1U);
+  EXPECT_TRUE(std::isnan(run.history.energy[0]));
+  EXPECT_EQ(exit_status(run.verdict.outcome), 3);
+  EXPECT_TRUE(std::isnan(run.verdict.outcome.diagnostics.energy.total()));
+}
+
+TEST(RunReader, AFolderWithoutAFinishedRunIsAnIoError) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(io_error_of(folder.path() / "none"),
+            (folder.path() / "none").string() + ": no such folder");
+  EXPECT_NE(io_error_of(folder.path()).find("holds no finished run (trajectory.h5 is missing)"),
+            std::string::npos);
+  std::ofstream(folder.path() / "trajectory.part.h5") << "x";
+  EXPECT_NE(io_error_of(folder.path()).find("the run goes on or broke off"), std::string::npos);
+}
+
+TEST(RunReader, DamagedFilesAreIoErrorsThatNameThem) {
+  const TemporaryFolder folder;
+  write_fake_run(folder.path(), relax::RunStatus::converged);
+  std::ofstream(folder.path() / "verdict.json") << "{\"status\": ";
+  EXPECT_NE(io_error_of(folder.path()).find("verdict.json: is no JSON"), std::string::npos);
+  std::ofstream(folder.path() / "verdict.json") << "{\"status\": \"converged\"}";
+  EXPECT_NE(io_error_of(folder.path()).find("verdict.json: /reason is missing"), std::string::npos);
+  std::ofstream(folder.path() / "trajectory.h5") << "no HDF5";
+  EXPECT_NE(io_error_of(folder.path()).find("trajectory.h5: / cannot be read, H5Fopen failed"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace vesica::io
