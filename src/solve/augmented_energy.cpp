@@ -21,7 +21,7 @@ bool AugmentedEnergy::evaluate(const Eigen::VectorXd& y, double& value_at_y,
   if (gradient_at_y != nullptr) {
     const ScopedTimer timer(seconds_.solve);
     Eigen::Map<Eigen::VectorXd>(gradient_at_y, y.size()) =
-        problem_.coordinates.pull_back(gradient(last_.sample));
+        problem_.coordinates.pull_back(gradient(last_.sample)) / problem_.energy_unit;
   }
   return true;
 }
@@ -52,8 +52,9 @@ bool AugmentedEnergy::visit(const Eigen::VectorXd& y) {
 
 double AugmentedEnergy::value(const EnergySample& sample) const {
   const Eigen::VectorXd errors = problem_.constraints.errors(sample.constraints);
-  return sample.energy.total() + problem_.multipliers.dot(errors) +
-         0.5 * problem_.weights.dot(errors.cwiseAbs2());
+  return (sample.energy.total() + problem_.multipliers.dot(errors) +
+          0.5 * problem_.weights.dot(errors.cwiseAbs2())) /
+         problem_.energy_unit;
 }
 
 Eigen::VectorXd AugmentedEnergy::gradient(const EnergySample& sample) const {

@@ -23,10 +23,11 @@ struct InnerProblem {
   Eigen::VectorXd multipliers;
   Eigen::VectorXd weights;  ///< rho of each constraint
   double largest_move = 0;  ///< points with a larger max|d| are refused [length]
+  double energy_unit = 1;   ///< of the values [energy]
 };
 
 /// The augmented Lagrangian E + sum lambda_i C_i + rho_i C_i^2 / 2 (C_i measured from the target)
-/// in the variables y, y = 0 at `start`. The bending moment is at its maximum in each evaluation.
+/// in the variables y, y = 0 at `start`, in the energy unit of the problem. The bending moment is at its maximum in each evaluation.
 class AugmentedEnergy {
  public:
   /// Keeps references to both.

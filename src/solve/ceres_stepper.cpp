@@ -124,16 +124,18 @@ InnerProblem CeresStepper::inner_problem() const {
           *coordinates_,
           multipliers_,
           penalty * scales_.energy * constraints_.units().cwiseAbs2().cwiseInverse(),
-          refused_move * scales_.length};
+          refused_move * scales_.length,
+          scales_.energy};
 }
 
 InnerResult CeresStepper::minimise() {
   const InnerProblem inner = inner_problem();
-  coordinates_->absorb(slopes_.constraints, inner.weights, trial_step_);
+  coordinates_->absorb(slopes_.constraints, inner.weights,
+                       trial_step_ * std::sqrt(scales_.energy));
   InnerLimits limits;
   limits.iterations = inner_iterations;
-  limits.gradient = std::max(inner_reduction * distance(), smallest_distance) *
-                    std::sqrt(scales_.energy) * trial_step_;
+  limits.gradient =
+      std::max(inner_reduction * distance(), smallest_distance) * trial_step_;
   limits.move = largest_move * scales_.length;
   auto result = minimise_inner(inner, point_, limits);
   counts_.newton += result.iterations;
@@ -157,7 +159,7 @@ std::string CeresStepper::objection(const InnerResult& result) {
                              result.point.unknowns.head(positions.rows())) < smallest_cosine) {
     return "the surface turns away from its reference; a finer mesh may help";
   }
-  const double gain = result.decrease / scales_.energy;
+  const double gain = result.decrease;
   if (gain > 0 && gain > least_gain * 0.5 * distance() * distance()) {
     stalls_ = 0;
   } else {

@@ -7,7 +7,7 @@ namespace vesica::solve {
 /// When an inner minimisation ends.
 struct InnerLimits {
   int iterations = 20;
-  double gradient = 0;  ///< of the augmented Lagrangian with respect to y [energy^(1/2)]
+  double gradient = 0;  ///< of the augmented Lagrangian with respect to y, in the energy unit
   double move = 0;      ///< max|d| of an accepted point [length]
 };
 
@@ -16,7 +16,7 @@ struct InnerResult {
   long iterations = 0;
   long evaluations = 0;
   long refusals = 0;
-  double decrease = 0;  ///< of the augmented Lagrangian [energy]
+  double decrease = 0;  ///< of the augmented Lagrangian, in the energy unit
   SolverSeconds seconds;
 };
 
