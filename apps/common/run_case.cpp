@@ -34,19 +34,18 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
 
 RunResult relaxed(const io::RunConfig& config, const io::Case& vesicle,
                   relax::Controller& interrupt, bool is_quiet) {
-  const std::string_view method = name_of(config.solver.method);
   std::unique_ptr<solve::Stepper> stepper;
   try {
     const DelayedSignals delayed;
     stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
   } catch (const SolverError& error) {
-    return {io::make_verdict(io::record_failed_start(config, vesicle, error.what()), method,
+    return {io::make_verdict(io::record_failed_start(config, vesicle, error.what()), config.solver,
                              vesicle.model, vesicle.start),
             vesicle.start};
   }
   io::create_run_folder(config.output.directory);
   relax::Outcome outcome = compute(config, vesicle, *stepper, interrupt, is_quiet);
-  return {io::make_verdict(std::move(outcome), method, vesicle.model, stepper->state()),
+  return {io::make_verdict(std::move(outcome), config.solver, vesicle.model, stepper->state()),
           stepper->state()};
 }
 

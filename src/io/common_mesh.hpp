@@ -13,8 +13,10 @@ struct Equilibrium {
   double energy = 0;  ///< [energy]
 };
 
-/// The equilibria that two runs are compared by. Runs whose discrete energies differ, or whose
-/// states must not be touched, are compared as they ended.
+/// The equilibria that two runs are compared by. Polished equilibria of the discrete energy are both
+/// described by the nodes of the first run and polished there once more: what the placement of the
+/// nodes does to the energy, 1e-5 to 1e-3 of it, then cancels and differences are those of
+/// the minima. Other runs are compared as they ended.
 [[nodiscard]] std::array<Equilibrium, 2> on_common_mesh(const ComparedRun& first,
                                                         const ComparedRun& second);
 

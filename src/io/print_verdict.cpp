@@ -82,9 +82,9 @@ std::string numerics_text(const Verdict& verdict) {
   Row polish("polish");
   if (const auto& report = outcome.report.polish) {
     polish.count("iterations", report->iterations).add("gradient", report->gradient, "{:.1e}");
-    polish.add(report->curvature.value < 0 ? "a SADDLE: lowest curvature"
-                                           : "a minimum: lowest curvature",
-               report->curvature.value, "{:.4g}");
+    polish.add(
+        report->curvature.value < 0 ? "a SADDLE: lowest curvature" : "a minimum: lowest curvature",
+        report->curvature.value, "{:.4g}");
   }
   Row work("work");
   work.count("steps", counts.steps).count("Newton", counts.newton).count("Krylov", counts.krylov);

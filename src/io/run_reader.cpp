@@ -126,8 +126,21 @@ problem::Diagnostics diagnostics_of(const JsonReader& json) {
   return measured;
 }
 
+std::optional<solve::PolishReport> polish_of(const JsonReader& json) {
+  const auto iterations = json.optional_count("/polish/iterations");
+  if (!iterations) return std::nullopt;
+  solve::PolishReport polish;
+  polish.is_converged = true;  // a run whose polish fails does not end as converged
+  polish.iterations = *iterations;
+  polish.gradient = json.optional_number("/polish/gradient").value_or(0);
+  polish.curvature.value = json.optional_number("/polish/lowest_curvature").value_or(0);
+  return polish;
+}
+
 solve::StepReport report_of(const JsonReader& json) {
   solve::StepReport report;
+  report.gradient = json.optional_number("/gradient");
+  report.polish = polish_of(json);
   report.time = json.number("/time");
   solve::SolverCounts& counts = report.counts;
   counts.steps = json.count("/counts/steps");
@@ -166,6 +179,7 @@ Verdict read_verdict(const fs::path& file) {
   verdict.outcome.initial_quality = json.number("/mesh/quality_initial");
   verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
   verdict.method = json.text("/method");
+  verdict.scheme = json.text("/scheme");
   verdict.time = json.number("/time");
   verdict.multipliers = per_constraint(json, "/multipliers");
   verdict.shape = shape_of(json);

@@ -106,11 +106,13 @@ void add_work(JsonWriter& json, const solve::StepReport& report) {
 
 }  // namespace
 
-Verdict make_verdict(relax::Outcome outcome, std::string_view method, const model::Model& model,
-                     const problem::State& state) {
+Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
+                     const model::Model& model, const problem::State& state) {
   Verdict verdict;
   verdict.outcome = std::move(outcome);
-  verdict.method = method;
+  verdict.method = name_of(solver.method);
+  const bool minimises = solver.method == solve::Method::minimize;
+  verdict.scheme = name_of(minimises ? solve::Scheme::variational : solver.scheme);
   verdict.time = state.time;
   verdict.multipliers = state.values.multipliers;
   verdict.shape = problem::shape_numbers(model, state);
@@ -124,6 +126,7 @@ void add_verdict(JsonWriter& json, const Verdict& verdict) {
   json.add("reason", verdict.outcome.reason);
   json.add("time", verdict.time);
   json.add("method", verdict.method);
+  json.add("scheme", verdict.scheme);
   add_energy(json, verdict.outcome.diagnostics.energy);
   add_constraints(json, "multipliers", verdict.multipliers);
   add_constraints(json, "constraints", verdict.outcome.diagnostics.constraint_errors);

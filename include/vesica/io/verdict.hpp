@@ -17,7 +17,11 @@ namespace vesica::io {
 struct Verdict {
   relax::Outcome outcome;
   std::string method;  ///< name of the integrator, as in the case file
-  double time = 0;     ///< [time]
+  /// Whose equilibrium the run looked for: that of the weak form ("paper") or of the discrete
+  /// energy
+  /// ("variational").
+  std::string scheme;
+  double time = 0;  ///< [time]
   problem::PerConstraint multipliers;
   problem::ShapeNumbers shape;
   std::int32_t num_nodes = 0;
@@ -25,7 +29,7 @@ struct Verdict {
 };
 
 /// The verdict on `state`, the last good one.
-[[nodiscard]] Verdict make_verdict(relax::Outcome outcome, std::string_view method,
+[[nodiscard]] Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
                                    const model::Model& model, const problem::State& state);
 
 /// The JSON text of `verdict.json`; keys in docs/output.md.

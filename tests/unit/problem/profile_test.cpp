@@ -53,8 +53,10 @@ TEST(ProfileTest, HasAPointWherePhasesMeet) {
   ASSERT_EQ(loops.size(), 1U);
   const auto is_interface = [](const ProfilePoint& point) { return point.order_parameter == 0; };
   EXPECT_EQ(std::count_if(loops[0].begin(), loops[0].end(), is_interface), 2);
-  for (const auto& point : loops[0])
-    if (is_interface(point)) EXPECT_NEAR(std::abs(point.along), 0.3, 1e-3);
+  for (const auto& point : loops[0]) {
+    if (!is_interface(point)) continue;
+    EXPECT_NEAR(std::abs(point.along), 0.3, 1e-3);
+  }
 }
 
 TEST(ProfileTest, IsEmptyWhereThePlaneMissesTheSurface) {
