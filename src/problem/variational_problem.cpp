@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "vesica/core/error.hpp"
+#include "vesica/mesh/quality.hpp"
+#include "vesica/mesh/redistribute.hpp"
 
 namespace vesica::problem {
 
@@ -13,6 +15,12 @@ constexpr Eigen::Index displacement = 3;
 constexpr Eigen::Index phase = 4;
 constexpr Eigen::Index num_rigid = 6;
 constexpr double smallest_allowed_cosine = 0.85;
+
+// A mesh is worn below this quality (3.5), when it has also lost this much since its last
+// reference.
+constexpr double worn_quality = 0.3;
+constexpr double worn_fraction = 0.75;
+constexpr int redistribution_sweeps = 10;
 
 std::vector<int> active_constraints(const model::Model& model) {
   const auto& targets = model.targets;
@@ -33,8 +41,10 @@ const model::Ramp& target_of(const model::Targets& targets, int constraint) {
 VariationalProblem::VariationalProblem(std::shared_ptr<const mesh::Triangulation> triangulation,
                                        model::Model model, const mesh::Positions& positions,
                                        int threads)
-    : energy_(triangulation, std::move(model), threads),
-      graph_(make_normal_graph(*triangulation, positions)),
+    : shared_triangulation_(std::move(triangulation)),
+      energy_(shared_triangulation_, std::move(model), threads),
+      graph_(make_normal_graph(*shared_triangulation_, positions)),
+      quality_of_reference_(mesh::quality(*shared_triangulation_, positions)),
       active_(active_constraints(energy_.model())) {}
 
 Eigen::Index VariationalProblem::num_nodal() const {
@@ -249,17 +259,39 @@ void VariationalProblem::jacobian(const EquationSettings& settings, const Jacobi
 }
 
 bool VariationalProblem::renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) {
+  const auto& triangulation = energy_.triangulation();
   const Eigen::VectorXd d = displacements(y);
-  if (graph_.smallest_cosine(energy_.triangulation(), d) >= smallest_allowed_cosine) return false;
-  const auto velocity = energy_rates(y_rate).velocity;
-  graph_ = make_normal_graph(energy_.triangulation(), graph_.positions(d));
+  mesh::Positions positions = graph_.positions(d);
+  const double quality = mesh::quality(triangulation, positions);
+  const bool is_worn = quality < worn_quality && quality < worn_fraction * quality_of_reference_;
+  if (!is_worn && graph_.smallest_cosine(triangulation, d) >= smallest_allowed_cosine) return false;
+  const mesh::Positions velocity = energy_rates(y_rate).velocity;
+  Eigen::MatrixXd nodal(d.size(), 2 * block_size() + 3);
+  nodal << as_rows(y), as_rows(y_rate), velocity;
+  if (is_worn) {
+    const auto moved =
+        mesh::redistribute({shared_triangulation_, positions}, redistribution_sweeps);
+    nodal = mesh::SurfaceLocator(shared_triangulation_, positions)
+                .interpolate(moved.origins, nodal)
+                .eval();
+    positions = moved.positions;
+  }
+  graph_ = make_normal_graph(triangulation, positions);
+  quality_of_reference_ = mesh::quality(triangulation, positions);
+  const auto block = block_size();
   for (Eigen::Index i = 0; i < d.size(); ++i) {
-    const auto row = i * block_size() + displacement;
-    y[row] = 0;
-    y_rate[row] = velocity.row(i).dot(graph_.directions.row(i));
+    y.segment(i * block, block) = nodal.row(i).head(block).transpose();
+    y_rate.segment(i * block, block) = nodal.row(i).segment(block, block).transpose();
+    y[i * block + displacement] = 0;
+    y_rate[i * block + displacement] = nodal.row(i).tail<3>().dot(graph_.directions.row(i));
   }
   y.tail<num_rigid>().setZero();
   return true;
+}
+
+/// The unknowns of the nodes, a row a node.
+Eigen::MatrixXd VariationalProblem::as_rows(const Eigen::VectorXd& y) const {
+  return y.head(num_nodal()).reshaped(block_size(), graph_.reference.rows()).transpose();
 }
 
 }  // namespace vesica::problem

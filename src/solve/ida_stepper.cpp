@@ -247,7 +247,10 @@ StepReport IdaStepper::step(double end_time) {
   y_rate_ = view(ida_y_rate_.get());
   store(time, y_, y_rate_);
   const auto result = report(StepStatus::accepted, {});
-  renew_coordinates();
+  if (problem_->renew_coordinates(y_, y_rate_)) {
+    reinitialise(restart_step_factor * last_step_size());
+    store(time, y_, y_rate_);
+  }
   return result;
 }
 
@@ -366,11 +369,6 @@ void IdaStepper::reinitialise(double initial_step) {
   view(ida_y_rate_.get()) = y_rate_;
   check(IDAReInit(ida_.get(), state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAReInit");
   check(IDASetInitStep(ida_.get(), initial_step), "IDASetInitStep");
-}
-
-void IdaStepper::renew_coordinates() {
-  if (!problem_->renew_coordinates(y_, y_rate_)) return;
-  reinitialise(restart_step_factor * last_step_size());
 }
 
 void IdaStepper::store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {

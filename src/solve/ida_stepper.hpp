@@ -35,7 +35,6 @@ class IdaStepper final : public Stepper {
   [[nodiscard]] double resting_rate() const;
   void restart();
   void reinitialise(double initial_step);
-  void renew_coordinates();
   [[nodiscard]] double last_step_size() const;
   void take_implicit_step(double size);
   [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;

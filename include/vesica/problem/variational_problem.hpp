@@ -51,7 +51,8 @@ class VariationalProblem final : public FlowProblem {
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
   /// A new reference when a normal has turned so far that its cosine with the direction of the node
-  /// is below 0.85.
+  /// is below 0.85, or when the quality (3.5) of the mesh has fallen below 0.3 and by a quarter:
+  /// then the nodes are first redistributed on the surface, and c, p and the rates interpolated.
   bool renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) override;
 
  private:
@@ -62,8 +63,12 @@ class VariationalProblem final : public FlowProblem {
   [[nodiscard]] Eigen::VectorXd component(const Eigen::VectorXd& y, Eigen::Index component) const;
   [[nodiscard]] Eigen::MatrixXd constraint_columns(const ConstraintEvaluation& constraints) const;
 
+  [[nodiscard]] Eigen::MatrixXd as_rows(const Eigen::VectorXd& y) const;
+
+  std::shared_ptr<const mesh::Triangulation> shared_triangulation_;
   EnergyProblem energy_;
   NormalGraph graph_;
+  double quality_of_reference_;
   std::vector<int> active_;  // the constraints that have a target
 };
 
