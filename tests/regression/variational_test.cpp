@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "relaxation_cases.hpp"
+
+namespace vesica {
+namespace {
+
+solve::SolverOptions variational(bool polish = false) {
+  solve::SolverOptions options;
+  options.scheme = solve::Scheme::variational;
+  options.polish = polish;
+  return options;
+}
+
+/// The largest change in a step of E + sum lambda_i C_i, lambda being the multipliers after the
+/// step.
+class LagrangianWatch final : public relax::Observer {
+ public:
+  void observe(const relax::StepView& view) override {
+    const auto& measured = view.diagnostics;
+    const auto& lambda = view.state.values.multipliers;
+    const std::array values{measured.energy.total(), measured.volume, measured.area,
+                            measured.phase_difference.value_or(0)};
+    if (last_) {
+      const std::array weights{1.0, lambda.volume.value_or(0), lambda.area.value_or(0),
+                               lambda.phase.value_or(0)};
+      double change = 0;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        change += weights[i] * (values[i] - (*last_)[i]);
+      largest_rise = std::max(largest_rise, change / values[0]);
+    }
+    last_ = values;
+  }
+
+  double largest_rise = -std::numeric_limits<double>::infinity();  ///< relative
+
+ private:
+  std::optional<std::array<double, 4>> last_;
+};
+
+TEST(VariationalFlow, LowersTheEnergyInEveryStepAndFindsTable1) {
+  LagrangianWatch watch;
+  const std::array<relax::Observer*, 1> observers{&watch};
+  const auto result = test::run_case(test::table_1_case(4), variational(), {}, observers);
+  ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_LT(watch.largest_rise, 0);
+  EXPECT_LE(result.counts().steps, 55);
+  EXPECT_LE(result.counts().factorisations, 12);
+  EXPECT_NEAR(result.energy(), test::table_1_energy, 7e-3);  // measured 5.9e-3
+  EXPECT_NEAR(result.volume_multiplier(), test::table_1_volume_multiplier, 2.5e-2);
+}
+
+TEST(VariationalFlow, IsWithinAThousandthOfTable1WithFourThousandNodes) {
+  const auto result = test::run_case(test::table_1_case(8), variational(true));
+  ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_LE(result.counts().steps, 55);
+  EXPECT_LE(result.counts().factorisations, 12 + result.outcome.report.polish->iterations + 1);
+  EXPECT_NEAR(result.energy(), test::table_1_energy, 1e-3);
+  EXPECT_NEAR(result.volume_multiplier(), test::table_1_volume_multiplier, 2e-3);
+  EXPECT_GT(result.outcome.report.polish->curvature.value, 0);
+}
+
+TEST(VariationalFlow, LeavesTheOblateSaddleForTheProlateWithAGoodMesh) {
+  // reference/axisymmetric.csv: prolate, v = 0.8
+  constexpr double prolate_energy = 34.870181;
+  const double pi = std::numbers::pi;
+  const auto start = test::single_phase_case(test::make_ellipsoid({1.27, 1.23, 0.55}, 6),
+                                             0.8 * 4 * pi / 3, 4 * pi);
+  const auto result = test::run_case(start, variational());
+  ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_NEAR(result.energy(), prolate_energy, 1e-4 * prolate_energy);
+  EXPECT_GT(result.outcome.diagnostics.quality, 0.25);
+}
+
+}  // namespace
+}  // namespace vesica
