@@ -71,8 +71,14 @@ SurfaceLocation Remesher::closest(const SurfaceVertex& from, const Vector3d& poi
   return old_.normal(walked).dot(from.normal) > 0 ? walked : old_.closest(point, from.normal);
 }
 
-SurfaceVertex Remesher::middle_of(const SurfaceVertex& a, const SurfaceVertex& b) const {
-  return at_place(closest(a, 0.5 * (a.place.point + b.place.point)));
+SurfaceLocation Remesher::middle_of(const SurfaceVertex& a, const SurfaceVertex& b) const {
+  const Vector3d middle = 0.5 * (a.place.point + b.place.point);
+  const Vector3d normal = a.normal + b.normal;
+  // On a rough surface one of the walks may end in a local minimum.
+  const SurfaceLocation from_a = old_.closest_from(a.place, middle);
+  const SurfaceLocation from_b = old_.closest_from(b.place, middle);
+  const SurfaceLocation& closer = from_a.distance <= from_b.distance ? from_a : from_b;
+  return old_.normal(closer).dot(normal) > 0 ? closer : old_.closest(middle, normal);
 }
 
 Fitness Remesher::fitness_of(std::span<const NodeIndex> triangles) const {
@@ -134,7 +140,7 @@ int Remesher::split_long_edges() {
 bool Remesher::try_split(NodeIndex a, NodeIndex b) {
   const auto sides = mesh_.sides(a, b);
   const Fitness before = fitness_of(sides->triangles);
-  const SurfaceVertex middle = middle_of(vertex(a), vertex(b));
+  const SurfaceVertex middle = at_place(middle_of(vertex(a), vertex(b)));
   Fitness after;
   for (const NodeIndex replaced : {a, b}) {
     const Fitness half = fitness_with(sides->triangles, {{replaced, replaced}, middle});
@@ -176,7 +182,8 @@ bool Remesher::try_collapse(NodeIndex a, NodeIndex b) {
   std::vector<NodeIndex> triangles(mesh_.star(a).begin(), mesh_.star(a).end());
   triangles.insert(triangles.end(), mesh_.star(b).begin(), mesh_.star(b).end());
   const Fitness before = fitness_of(triangles);
-  for (const SurfaceVertex& merged : {middle_of(vertex(a), vertex(b)), vertex(a), vertex(b)}) {
+  const SurfaceVertex middle = at_place(middle_of(vertex(a), vertex(b)));
+  for (const SurfaceVertex& merged : {middle, vertex(a), vertex(b)}) {
     if (has_long_edge(a, b, merged)) continue;
     if (!fitness_with(triangles, {{a, b}, merged}).is_as_good_as(before, rough_quality)) continue;
     vertices_[static_cast<std::size_t>(a)] = merged;
@@ -189,8 +196,8 @@ bool Remesher::try_collapse(NodeIndex a, NodeIndex b) {
 int Remesher::flip_towards_valence_six() {
   int count = 0;
   for (const auto& [a, b] : mesh_.edges()) {
-    if (!mesh_.can_flip(a, b)) continue;
     const auto sides = mesh_.sides(a, b);
+    if (!sides) continue;  // flipped away
     int gain = 0;
     for (const NodeIndex v : {a, b}) {
       gain += valence_defect(mesh_.valence(v)) - valence_defect(mesh_.valence(v) - 1);
@@ -198,7 +205,7 @@ int Remesher::flip_towards_valence_six() {
     for (const NodeIndex v : sides->opposite) {
       gain += valence_defect(mesh_.valence(v)) - valence_defect(mesh_.valence(v) + 1);
     }
-    if (gain <= 0) continue;
+    if (gain <= 0 || !mesh_.can_flip(a, b)) continue;
     const Fitness before = fitness_of(sides->triangles);
     if (!fitness_flipped(a, b, *sides).is_as_good_as(before, rough_quality)) continue;
     mesh_.flip(a, b);
@@ -210,11 +217,12 @@ int Remesher::flip_towards_valence_six() {
 int Remesher::flip_for_angles() {
   int count = 0;
   for (const auto& [a, b] : mesh_.edges()) {
-    if (!mesh_.can_flip(a, b)) continue;
     const auto sides = mesh_.sides(a, b);
+    if (!sides) continue;  // flipped away
     const Fitness before = fitness_of(sides->triangles);
     const Fitness after = fitness_flipped(a, b, *sides);
     if (after.quality <= 1.01 * before.quality || !after.is_as_good_as(before, 1)) continue;
+    if (!mesh_.can_flip(a, b)) continue;
     mesh_.flip(a, b);
     ++count;
   }
@@ -254,36 +262,31 @@ void Remesher::smooth(double enough) {
 
 Remeshed Remesher::result() const {
   std::vector<NodeIndex> new_number(vertices_.size(), -1);
-  std::vector<SurfaceLocation> origins;
+  std::vector<SurfaceVertex> kept;
   for (NodeIndex v = 0; v < mesh_.num_vertices(); ++v) {
     if (mesh_.star(v).empty()) continue;
-    new_number[static_cast<std::size_t>(v)] = static_cast<NodeIndex>(origins.size());
-    origins.push_back(vertex(v).place);
+    new_number[static_cast<std::size_t>(v)] = static_cast<NodeIndex>(kept.size());
+    kept.push_back(vertex(v));
   }
   std::vector<Corners> triangles = mesh_.triangles();
-  std::vector<Vector3d> normals(origins.size());
   for (Corners& corners : triangles) {
-    for (NodeIndex& v : corners) {
-      const NodeIndex old_number = std::exchange(v, new_number[static_cast<std::size_t>(v)]);
-      normals[static_cast<std::size_t>(v)] = vertex(old_number).normal;
-    }
+    for (NodeIndex& v : corners) v = new_number[static_cast<std::size_t>(v)];
   }
-  const auto num_vertices = static_cast<NodeIndex>(origins.size());
-  auto connectivity = mesh::add_edge_nodes(triangles, num_vertices);
+  auto connectivity = mesh::add_edge_nodes(triangles, static_cast<NodeIndex>(kept.size()));
+  std::vector<SurfaceLocation> origins;
+  origins.reserve(kept.size() + connectivity.edges.size());
+  for (const SurfaceVertex& vertex : kept) origins.push_back(vertex.place);
   for (const auto& [a, b] : connectivity.edges) {
-    const SurfaceVertex end{origins[static_cast<std::size_t>(a)],
-                            normals[static_cast<std::size_t>(a)], 0};
-    const Vector3d& other = origins[static_cast<std::size_t>(b)].point;
-    origins.push_back(closest(end, 0.5 * (end.place.point + other)));
+    origins.push_back(
+        middle_of(kept[static_cast<std::size_t>(a)], kept[static_cast<std::size_t>(b)]));
   }
   mesh::Positions positions(static_cast<Eigen::Index>(origins.size()), 3);
   for (std::size_t i = 0; i < origins.size(); ++i) {
     positions.row(static_cast<Eigen::Index>(i)) = origins[i].point.transpose();
   }
-  return {{std::make_shared<const mesh::Triangulation>(std::move(connectivity.triangles),
-                                                       static_cast<NodeIndex>(origins.size())),
-           std::move(positions)},
-          std::move(origins)};
+  auto triangulation = std::make_shared<const mesh::Triangulation>(
+      std::move(connectivity.triangles), static_cast<NodeIndex>(origins.size()));
+  return {{std::move(triangulation), std::move(positions)}, std::move(origins)};
 }
 
 }  // namespace vesica::adapt

@@ -44,7 +44,9 @@ class Remesher {
   /// Closest point of the old surface on the sheet of `from`.
   [[nodiscard]] mesh::SurfaceLocation closest(const SurfaceVertex& from,
                                               const Eigen::Vector3d& point) const;
-  [[nodiscard]] SurfaceVertex middle_of(const SurfaceVertex& a, const SurfaceVertex& b) const;
+  /// Closest point to the middle of the chord.
+  [[nodiscard]] mesh::SurfaceLocation middle_of(const SurfaceVertex& a,
+                                                const SurfaceVertex& b) const;
 
   [[nodiscard]] Fitness fitness_of(std::span<const NodeIndex> triangles) const;
   /// With the substitute in place; triangles that have both replaced vertices vanish.

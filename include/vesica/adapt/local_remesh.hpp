@@ -29,6 +29,9 @@ struct Remeshed {
 /// quadratic surface, on the sheet where it was; mid-edge nodes are the closest points to the
 /// middles of the chords. The shape changes by the interpolation error of the new mesh, O(L^3).
 ///
+/// On a smooth surface the quality (3.5) is above 0.5. On one whose neighbouring elements differ by
+/// more than 60 degrees in their normals folds may remain: check smallest_normal_cosine.
+///
 /// Throws ConfigError when `sizes` has another length than the number of nodes or an entry that is
 /// not positive and finite, or a position is not finite.
 [[nodiscard]] Remeshed local_remesh(const mesh::Surface& old, const Eigen::VectorXd& sizes);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,15 @@ TEST(LocalRemesh, HealsABadMesh) {
   }
   ASSERT_LT(quality_of(surface), 0.45);
   EXPECT_GT(quality_of(uniform(surface, 0.15).surface), 0.55);
+}
+
+TEST(LocalRemesh, MeshesARoughSurface) {
+  mesh::Surface surface = shape(mesh::ShapeKind::sphere, 6);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.006);  // a fifteenth of the distance of nodes
+  for (double& coordinate : surface.positions.reshaped()) coordinate += noise(random);
+  ASSERT_LT(mesh::smallest_normal_cosine(*surface.triangulation, surface.positions), 0.9);
+  for (const double size : {0.1, 0.3}) EXPECT_GT(quality_of(uniform(surface, size).surface), 0.5);
 }
 
 TEST(LocalRemesh, PutsEveryNodeOnTheOldSurface) {
