@@ -21,6 +21,18 @@ void for_each_side(const Triangulation& triangulation, const Positions& position
 
 }  // namespace
 
+double smallest_sine(const std::array<Eigen::Vector3d, 3>& p) {
+  const std::array<double, 3> sides = {(p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
+                                       (p[0] - p[2]).norm()};
+  const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  double smallest = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double product = sides[i] * sides[(i + 1) % 3];
+    smallest = std::min(smallest, product > 0 ? twice_area / product : 0.0);
+  }
+  return smallest;
+}
+
 double quality(const Triangulation& triangulation, const Positions& positions) {
   double smallest = 1.0;
   for (const QuadraticTriangle& nodes : triangulation.triangles()) {

@@ -1,7 +1,6 @@
 #include "sub_triangles.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 #include "quadratic_shape.hpp"
 
@@ -30,18 +29,6 @@ std::array<Eigen::Vector3d, 3> sub_triangle(const QuadraticTriangle& nodes,
 
 Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-}
-
-double smallest_sine(const std::array<Eigen::Vector3d, 3>& p) {
-  const std::array<double, 3> sides = {(p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
-                                       (p[0] - p[2]).norm()};
-  const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
-  double smallest = 1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double product = sides[i] * sides[(i + 1) % 3];
-    smallest = std::min(smallest, product > 0 ? twice_area / product : 0.0);
-  }
-  return smallest;
 }
 
 double volume_below(const QuadraticTriangle& nodes, const Positions& positions) {

@@ -20,9 +20,6 @@ inline constexpr std::array<std::array<std::size_t, 3>, 4> sub_triangles = {
 /// Normal times twice the area.
 [[nodiscard]] Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners);
 
-/// Smallest sine of the inner angles, 0 without area.
-[[nodiscard]] double smallest_sine(const std::array<Eigen::Vector3d, 3>& corners);
-
 /// 1/3 int x . (x_u cross x_v) du dv over one quadratic triangle: its share of the enclosed volume.
 [[nodiscard]] double volume_below(const QuadraticTriangle& nodes, const Positions& positions);
 

@@ -18,6 +18,10 @@
 
 namespace vesica::mesh {
 
+std::array<double, 6> shape_weights(const SurfaceLocation& location) {
+  return shape_values(location.u, location.v);
+}
+
 struct SurfaceLocator::Index {
   std::vector<CurvedTriangle> triangles;
   BoxTree tree;
@@ -148,10 +152,6 @@ SurfaceLocation SurfaceLocator::closest_from(const SurfaceLocation& start,
 
 Eigen::Vector3d SurfaceLocator::normal(const SurfaceLocation& location) const {
   return index_->triangle(location.triangle).area_vector({location.u, location.v}).normalized();
-}
-
-std::array<double, 6> SurfaceLocator::weights(const SurfaceLocation& location) {
-  return shape_values(location.u, location.v);
 }
 
 }  // namespace vesica::mesh

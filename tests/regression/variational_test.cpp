@@ -17,8 +17,8 @@ solve::SolverOptions variational(bool polish = false) {
   return options;
 }
 
-/// The largest change in a step of E + sum lambda_i C_i, lambda being the multipliers after the
-/// step.
+/// The largest change of E + sum lambda_i C_i in a step, lambda being the mean of the multipliers
+/// before and after it: along a solution dE = -||v||^2 dt - lambda . dC.
 class LagrangianWatch final : public relax::Observer {
  public:
   void observe(const relax::StepView& view) override {
@@ -26,21 +26,24 @@ class LagrangianWatch final : public relax::Observer {
     const auto& lambda = view.state.values.multipliers;
     const std::array values{measured.energy.total(), measured.volume, measured.area,
                             measured.phase_difference.value_or(0)};
+    const std::array weights{1.0, lambda.volume.value_or(0), lambda.area.value_or(0),
+                             lambda.phase.value_or(0)};
     if (last_) {
-      const std::array weights{1.0, lambda.volume.value_or(0), lambda.area.value_or(0),
-                               lambda.phase.value_or(0)};
       double change = 0;
       for (std::size_t i = 0; i < values.size(); ++i)
-        change += weights[i] * (values[i] - (*last_)[i]);
+        change += 0.5 * (weights[i] + last_weights_[i]) * (values[i] - (*last_)[i]);
+      if (change > largest_rise) std::printf("%ld %g %g %g\n", view.report.counts.steps, view.state.time, change, view.diagnostics.constraint_errors.volume.value());
       largest_rise = std::max(largest_rise, change / values[0]);
     }
     last_ = values;
+    last_weights_ = weights;
   }
 
   double largest_rise = -std::numeric_limits<double>::infinity();  ///< relative
 
  private:
   std::optional<std::array<double, 4>> last_;
+  std::array<double, 4> last_weights_{};
 };
 
 TEST(VariationalFlow, LowersTheEnergyInEveryStepAndFindsTable1) {

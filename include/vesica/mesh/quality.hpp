@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "vesica/mesh/triangulation.hpp"
@@ -8,6 +10,9 @@ namespace vesica::mesh {
 
 // "Sub-triangles" are the four flat triangles between neighbouring nodes of a quadratic triangle:
 // (0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5). Positions have shape (num_nodes, 3).
+
+/// Smallest sine of the inner angles of a flat triangle; 0 without area.
+[[nodiscard]] double smallest_sine(const std::array<Eigen::Vector3d, 3>& corners);
 
 /// q = min over sub-triangles of the sine of their inner angles, (3.5); in (0, sqrt(3)/2].
 /// 0 when a sub-triangle has no area.

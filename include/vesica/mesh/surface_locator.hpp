@@ -20,6 +20,38 @@ struct SurfaceLocation {
   double distance = 0;                              ///< from the point that was asked for [length]
 };
 
+/// Values of the six quadratic shape functions at a location.
+[[nodiscard]] std::array<double, 6> shape_weights(const SurfaceLocation& location);
+
+/// sum_i phi_i(u, v) field_i for a nodal field, a row a node; a column vector of the field's
+/// columns.
+template <class Field>
+[[nodiscard]] Eigen::Matrix<double, Field::ColsAtCompileTime, 1> interpolate(
+    const Triangulation& triangulation, const SurfaceLocation& location,
+    const Eigen::MatrixBase<Field>& field) {
+  assert(field.rows() == triangulation.num_nodes());
+  const QuadraticTriangle& nodes =
+      triangulation.triangles()[static_cast<std::size_t>(location.triangle)];
+  const std::array<double, 6> weights = shape_weights(location);
+  Eigen::Matrix<double, Field::ColsAtCompileTime, 1> sum(field.cols());
+  sum.setZero();
+  for (std::size_t i = 0; i < 6; ++i) sum += weights[i] * field.row(nodes[i]).transpose();
+  return sum;
+}
+
+/// The same for many locations, a row each.
+template <class Field>
+[[nodiscard]] typename Field::PlainObject interpolate(const Triangulation& triangulation,
+                                                      std::span<const SurfaceLocation> locations,
+                                                      const Eigen::MatrixBase<Field>& field) {
+  typename Field::PlainObject values(static_cast<Eigen::Index>(locations.size()), field.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    values.row(i) =
+        interpolate(triangulation, locations[static_cast<std::size_t>(i)], field).transpose();
+  }
+  return values;
+}
+
 /// Finds closest points on a surface of curved triangles: a tree of boxes around the triangles, and
 /// Newton's method in (u, v) on each triangle that is near enough. Immutable; queries from several
 /// threads are safe.
@@ -48,19 +80,12 @@ class SurfaceLocator {
   /// Outward unit normal x_u x x_v / |x_u x x_v| of the curved triangle.
   [[nodiscard]] Eigen::Vector3d normal(const SurfaceLocation& location) const;
 
-  /// Values of the six quadratic shape functions at a location.
-  [[nodiscard]] static std::array<double, 6> weights(const SurfaceLocation& location);
-
-  /// sum_i phi_i(u, v) field_i for a nodal field, a row a node; a column vector of the field's
-  /// columns.
-  template <class Field>
-  [[nodiscard]] Eigen::Matrix<double, Field::ColsAtCompileTime, 1> interpolate(
-      const SurfaceLocation& location, const Eigen::MatrixBase<Field>& field) const;
-
-  /// The same for many locations, a row each.
-  template <class Field>
-  [[nodiscard]] typename Field::PlainObject interpolate(
-      std::span<const SurfaceLocation> locations, const Eigen::MatrixBase<Field>& field) const;
+  /// The free functions of this name on this triangulation.
+  template <class Locations, class Field>
+  [[nodiscard]] auto interpolate(const Locations& locations,
+                                 const Eigen::MatrixBase<Field>& field) const {
+    return mesh::interpolate(*triangulation_, locations, field);
+  }
 
   [[nodiscard]] const Triangulation& triangulation() const { return *triangulation_; }
   [[nodiscard]] const Positions& positions() const { return positions_; }
@@ -72,28 +97,5 @@ class SurfaceLocator {
   Positions positions_;
   std::shared_ptr<const Index> index_;
 };
-
-template <class Field>
-Eigen::Matrix<double, Field::ColsAtCompileTime, 1> SurfaceLocator::interpolate(
-    const SurfaceLocation& location, const Eigen::MatrixBase<Field>& field) const {
-  assert(field.rows() == triangulation_->num_nodes());
-  const QuadraticTriangle& nodes =
-      triangulation_->triangles()[static_cast<std::size_t>(location.triangle)];
-  const std::array<double, 6> weight = weights(location);
-  Eigen::Matrix<double, Field::ColsAtCompileTime, 1> sum(field.cols());
-  sum.setZero();
-  for (std::size_t i = 0; i < 6; ++i) sum += weight[i] * field.row(nodes[i]).transpose();
-  return sum;
-}
-
-template <class Field>
-typename Field::PlainObject SurfaceLocator::interpolate(
-    std::span<const SurfaceLocation> locations, const Eigen::MatrixBase<Field>& field) const {
-  typename Field::PlainObject values(static_cast<Eigen::Index>(locations.size()), field.cols());
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    values.row(i) = interpolate(locations[static_cast<std::size_t>(i)], field).transpose();
-  }
-  return values;
-}
 
 }  // namespace vesica::mesh

@@ -193,7 +193,7 @@ TEST(SurfaceLocator, RefusesWhatIsNotFiniteOrTooShort) {
   surface.positions(3, 1) = nan;
   test::expect_message<ConfigError>([&] { (void)locator_of(surface); },
                                     "surface locator: positions: must be finite");
-  surface.positions.conservativeResize(5, 3);
+  surface.positions = Positions(surface.positions.topRows(5));
   test::expect_message<ConfigError>(
       [&] { (void)locator_of(surface); },
       "surface locator: 5 positions: must be one for each of the 18 nodes");
