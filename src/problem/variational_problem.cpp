@@ -271,9 +271,7 @@ bool VariationalProblem::renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& 
   if (is_worn) {
     const auto moved =
         mesh::redistribute({shared_triangulation_, positions}, redistribution_sweeps);
-    nodal = mesh::SurfaceLocator(shared_triangulation_, positions)
-                .interpolate(moved.origins, nodal)
-                .eval();
+    nodal = mesh::interpolate(triangulation, moved.origins, nodal).eval();
     positions = moved.positions;
   }
   graph_ = make_normal_graph(triangulation, positions);

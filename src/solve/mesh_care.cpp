@@ -58,15 +58,8 @@ MovedNodes MeshCare::redistribute(const mesh::Surface& surface,
   const auto moved = mesh::redistribute(surface, sweeps);
   MovedNodes result{moved.positions, order_parameter};
   if (order_parameter.size() > 0) {
-    for (std::size_t i = 0; i < moved.origins.size(); ++i) {
-      const auto& origin = moved.origins[i];
-      const auto weights = mesh::SurfaceLocator::weights(origin);
-      const auto& nodes =
-          surface.triangulation->triangles()[static_cast<std::size_t>(origin.triangle)];
-      double value = 0;
-      for (std::size_t k = 0; k < 6; ++k) value += weights[k] * order_parameter[nodes[k]];
-      result.order_parameter[static_cast<Eigen::Index>(i)] = value;
-    }
+    result.order_parameter =
+        mesh::interpolate(*surface.triangulation, moved.origins, order_parameter);
   }
   fresh_ = mesh_condition({surface.triangulation, result.positions});
   return result;
