@@ -21,6 +21,12 @@ double largest_error(const problem::PerConstraint& errors) {
 
 std::string progress_line(const relax::StepView& view) {
   const problem::Diagnostics& measured = view.diagnostics;
+  if (view.report.gradient) {
+    return fmt::format("step {}  evaluations {}  F {:.6f}  distance {:.1e}  C {:.1e}  q {:.3f}",
+                       view.report.counts.steps, view.report.counts.residuals,
+                       measured.energy.total(), *view.report.gradient,
+                       largest_error(measured.constraint_errors), measured.quality);
+  }
   const double radius = std::sqrt(measured.area / (4 * std::numbers::pi));
   return fmt::format(
       "step {}  t {:.4g}  dt {:.1e}  order {}  F {:.6f}  v {:.1e}  C {:.1e}  q {:.3f}",

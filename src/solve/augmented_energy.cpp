@@ -33,13 +33,12 @@ bool AugmentedEnergy::visit(const Eigen::VectorXd& y) {
     const ScopedTimer timer(seconds_.solve);
     unknowns += problem_.coordinates.change(y);
   }
-  const Eigen::VectorXd displacements = unknowns.head(n);
-  if (!(displacements.cwiseAbs().maxCoeff() <= problem_.largest_move)) return false;
+  if (!(unknowns.head(n).cwiseAbs().maxCoeff() <= problem_.largest_move)) return false;
   try {
     ++evaluations_;
     const ScopedTimer timer(seconds_.residual);
-    last_.sample = sample_energy(problem_.energy, problem_.graph.positions(displacements),
-                                 unknowns.tail(unknowns.size() - n));
+    last_.sample = sample_energy(problem_.energy, positions_of(problem_.graph, unknowns),
+                                 order_parameter_of(problem_.graph, unknowns));
   } catch (const RecoverableError&) {
     last_ = start_;
     last_variables_.setZero();
@@ -58,12 +57,10 @@ double AugmentedEnergy::value(const EnergySample& sample) const {
 }
 
 Eigen::VectorXd AugmentedEnergy::gradient(const EnergySample& sample) const {
-  const bool is_two_phase = problem_.energy.model().is_two_phase;
   const Eigen::VectorXd errors = problem_.constraints.errors(sample.constraints);
-  return along_graph(problem_.graph, sample.gradient.positions, sample.gradient.order_parameter,
-                     is_two_phase) +
-         problem_.constraints.gradients(problem_.graph, sample.constraints, is_two_phase) *
-             (problem_.multipliers + problem_.weights.cwiseProduct(errors));
+  return problem_.constraints.lagrangian_gradient(
+      problem_.graph, sample, problem_.multipliers + problem_.weights.cwiseProduct(errors),
+      problem_.energy.model().is_two_phase);
 }
 
 }  // namespace vesica::solve

@@ -27,7 +27,8 @@ struct InnerProblem {
 };
 
 /// The augmented Lagrangian E + sum lambda_i C_i + rho_i C_i^2 / 2 (C_i measured from the target)
-/// in the variables y, y = 0 at `start`, in the energy unit of the problem. The bending moment is at its maximum in each evaluation.
+/// in the variables y, y = 0 at `start`, in the energy unit of the problem. The bending moment is
+/// at its maximum in each evaluation.
 class AugmentedEnergy {
  public:
   /// Keeps references to both.

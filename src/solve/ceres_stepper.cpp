@@ -15,7 +15,11 @@ namespace vesica::solve {
 namespace {
 
 // Measured (docs/minimisation.md); lengths in R_c, energies in k_1.
-constexpr double penalty = 1e4;
+constexpr double penalty = 1e3;  // rho at least
+constexpr double penalty_per_multiplier = 40;
+constexpr double penalty_factor = 3;  // when a constraint error does not fall
+constexpr double largest_penalty_growth = 100;
+constexpr double error_reduction = 0.5;
 constexpr int inner_iterations = 15;
 constexpr double inner_reduction = 0.1;     // of the distance to the minimum
 constexpr double smallest_distance = 1e-7;  // rounding of the energy ends the line search there
@@ -26,16 +30,12 @@ constexpr double smallest_cosine = 0.6;     // between a normal and that of the 
 constexpr double move_to_keep = 5e-3;
 constexpr double move_to_release = 0.02;
 constexpr double quality_to_release = 0.85;
-constexpr double far_from_minimum = 1e-2;
+constexpr double far_from_minimum = 1e-2;  // distances to the minimum, in k_1^(1/2)
 
 constexpr double shorter_trial = 0.2;
 constexpr int max_attempts = 4;
 constexpr int max_stalls = 5;
 constexpr double least_gain = 0.02;  // of half the squared distance to the minimum
-
-constexpr int max_constraint_iterations = 8;
-constexpr double constraint_tolerance = 1e-13;
-constexpr double constraint_met = 1e-9;
 
 }  // namespace
 
@@ -52,6 +52,7 @@ CeresStepper::CeresStepper(const SolverOptions& options, const model::Model& mod
   try {
     sample_at(state_.values.positions, state_.values.order_parameter);
     renew_reference();
+    next_multipliers_ = multipliers_;
   } catch (const RecoverableError& trouble) {
     throw SolverError(fmt::format(
         "start of the minimisation: {}; a finer or smoother start may help", trouble.what()));
@@ -60,25 +61,34 @@ CeresStepper::CeresStepper(const SolverOptions& options, const model::Model& mod
 }
 
 StepReport CeresStepper::step(double) {
-  const ScopedTimer timer(seconds_.total);
+  std::string trouble;
+  {
+    const ScopedTimer timer(seconds_.total);
+    trouble = try_step();
+  }
+  if (trouble.empty()) return report(StepStatus::accepted, {});
+  return report(StepStatus::failed,
+                fmt::format("minimisation, outer iteration {}: {}", counts_.steps + 1, trouble));
+}
+
+std::string CeresStepper::try_step() {
   std::string trouble;
   for (int attempt = 0; attempt < max_attempts && stalls_ < max_stalls; ++attempt) {
     try {
       if (is_reference_old_) renew_reference();
-      auto result = minimise();
+      const InnerProblem inner = inner_problem();
+      auto result = minimise(inner);
       trouble = objection(result);
       if (trouble.empty()) {
-        accept(std::move(result));
-        return report(StepStatus::accepted, {});
+        accept(std::move(result), inner);
+        return {};
       }
     } catch (const RecoverableError& error) {
       trouble = error.what();
     }
     retreat();
   }
-  if (stalls_ >= max_stalls) trouble = stall_text();
-  return report(StepStatus::failed,
-                fmt::format("minimisation, outer iteration {}: {}", counts_.steps + 1, trouble));
+  return stalls_ < max_stalls ? trouble : stall_text();
 }
 
 void CeresStepper::sample_at(const mesh::Positions& positions,
@@ -117,25 +127,33 @@ void CeresStepper::linearise() {
   multipliers_ = slopes_.multipliers();
 }
 
+/// The constraints must be stiffer than the Lagrangian curves along them, which grows with the
+/// multipliers.
+Eigen::VectorXd CeresStepper::penalties() const {
+  const double largest =
+      constraints_.size() == 0
+          ? 0
+          : multipliers_.cwiseProduct(constraints_.units()).cwiseAbs().maxCoeff() / scales_.energy;
+  const double reduced = penalty_growth_ * std::max(penalty, penalty_per_multiplier * largest);
+  return reduced * scales_.energy * constraints_.units().cwiseAbs2().cwiseInverse();
+}
+
 InnerProblem CeresStepper::inner_problem() const {
   return {problem_,
           graph_,
           constraints_,
           *coordinates_,
-          multipliers_,
-          penalty * scales_.energy * constraints_.units().cwiseAbs2().cwiseInverse(),
+          next_multipliers_,
+          penalties(),
           refused_move * scales_.length,
           scales_.energy};
 }
 
-InnerResult CeresStepper::minimise() {
-  const InnerProblem inner = inner_problem();
-  coordinates_->absorb(slopes_.constraints, inner.weights,
-                       trial_step_ * std::sqrt(scales_.energy));
+InnerResult CeresStepper::minimise(const InnerProblem& inner) {
+  coordinates_->absorb(slopes_.constraints, inner.weights, trial_step_ * std::sqrt(scales_.energy));
   InnerLimits limits;
   limits.iterations = inner_iterations;
-  limits.gradient =
-      std::max(inner_reduction * distance(), smallest_distance) * trial_step_;
+  limits.gradient = std::max(inner_reduction * distance(), smallest_distance) * trial_step_;
   limits.move = largest_move * scales_.length;
   auto result = minimise_inner(inner, point_, limits);
   counts_.newton += result.iterations;
@@ -168,8 +186,9 @@ std::string CeresStepper::objection(const InnerResult& result) {
   return gain > 0 ? "" : stall_text();
 }
 
-void CeresStepper::accept(InnerResult result) {
+void CeresStepper::accept(InnerResult result, const InnerProblem& inner) {
   ++counts_.steps;
+  const double error_before = constraints_.largest_error(point_.sample.constraints);
   point_ = std::move(result.point);
   trial_step_ =
       stalls_ > 0 ? trial_step_ * shorter_trial : std::min(1.0, trial_step_ / shorter_trial);
@@ -179,8 +198,23 @@ void CeresStepper::accept(InnerResult result) {
   keeps_reference_ = stalls_ == 0 && move < (keeps_reference_ ? move_to_release : move_to_keep) &&
                      quality > quality_to_release * reference_quality_;
   is_reference_old_ = !keeps_reference_;
-  if (distance() > far_from_minimum || stalls_ > 0) care_for_mesh();
+  if (distance() > far_from_minimum || stalls_ > 0) {
+    care_for_mesh();
+    next_multipliers_ = multipliers_;
+  } else {
+    choose_multipliers(inner, error_before);
+  }
   store();
+}
+
+/// Near the minimum: the update of the augmented Lagrangian, which converges for a penalty that is
+/// large enough. Least squares, better far away, need not.
+void CeresStepper::choose_multipliers(const InnerProblem& last, double error_before) {
+  const auto& constraints = point_.sample.constraints;
+  if (constraints_.largest_error(constraints) > error_reduction * error_before)
+    penalty_growth_ = std::min(largest_penalty_growth, penalty_growth_ * penalty_factor);
+  next_multipliers_ =
+      last.multipliers + last.weights.cwiseProduct(constraints_.errors(constraints));
 }
 
 /// Moves the nodes along the surface when the mesh is worn. The state may change a little: the new
@@ -207,59 +241,7 @@ void CeresStepper::retreat() {
     const auto& values = state_.values;
     sample_at(values.positions, values.order_parameter);
   }
-}
-
-/// Newton's method along the constraint directions, with the derivatives kept.
-bool CeresStepper::restore_constraints() {
-  GraphPoint restored = point_;
-  auto& constraints = restored.sample.constraints;
-  for (int iteration = 0; iteration < max_constraint_iterations; ++iteration) {
-    if (constraints_.largest_error(constraints) < constraint_tolerance) break;
-    const auto errors = constraints_.errors(constraints);
-    restored.unknowns -= coordinates_->spread(slopes_.change_for(errors));
-    constraints = problem_.constraints(positions_of(restored.unknowns),
-                                       order_parameter_of(restored.unknowns));
-  }
-  if (!(constraints_.largest_error(constraints) < constraint_met)) return false;
-  point_.unknowns = restored.unknowns;
-  sample_at(positions_of(restored.unknowns), order_parameter_of(restored.unknowns));
-  linearise();
-  return true;
-}
-
-StepReport CeresStepper::finish() {
-  const ScopedTimer timer(seconds_.total);
-  if (!options_.final_constraint_solve) return report(StepStatus::accepted, {});
-  const GraphPoint before = point_;
-  try {
-    if (!restore_constraints())
-      return report(StepStatus::failed, "final constraint solve: " + constraint_text());
-  } catch (const RecoverableError& trouble) {
-    point_ = before;
-    return report(StepStatus::failed, fmt::format("final constraint solve: {}", trouble.what()));
-  }
-  store();
-  return report(StepStatus::accepted, {});
-}
-
-std::string CeresStepper::stall_text() const {
-  if (!(constraints_.largest_error(point_.sample.constraints) < constraint_met * 10))
-    return constraint_text();
-  const double rounding = 10 * smallest_distance;
-  return fmt::format(
-      "the line search finds no lower energy at distance {:.1e} from the minimum ({}); {}",
-      distance(), describe(mesh_condition(surface(point_.sample.fields.positions))),
-      distance() < rounding
-          ? "that is round-off: raise stop.gradient or set solver.polish = true"
-          : "a finer or more even mesh, another start or solver.method = ida may help");
-}
-
-std::string CeresStepper::constraint_text() const {
-  return fmt::format(
-      "constraints.{} is off by {:.1e} (relative) and comes no closer: the targets cannot be met "
-      "together on this mesh; change one of them or leave it \"free\"",
-      constraints_.worst_name(point_.sample.constraints),
-      constraints_.largest_error(point_.sample.constraints));
+  next_multipliers_ = multipliers_;
 }
 
 void CeresStepper::store() {
@@ -269,11 +251,8 @@ void CeresStepper::store() {
   state_.values = {fields.positions, problem_.mean_curvature(fields), fields.order_parameter,
                    constraints_.named(multipliers_)};
   const auto n = fields.positions.rows();
-  const Eigen::VectorXd derivative =
-      along_graph(graph_, point_.sample.gradient.positions, point_.sample.gradient.order_parameter,
-                  is_two_phase()) +
-      constraints_.gradients(graph_, point_.sample.constraints, is_two_phase()) * multipliers_;
-  const Eigen::VectorXd steepest = metric_.l2_gradient(derivative);
+  const Eigen::VectorXd steepest = metric_.l2_gradient(
+      constraints_.lagrangian_gradient(graph_, point_.sample, multipliers_, is_two_phase()));
   const auto& material = problem_.model().material;
   state_.rates = {};
   state_.rates.positions = (-steepest.head(n)).asDiagonal() * graph_.directions;
@@ -282,14 +261,6 @@ void CeresStepper::store() {
     state_.rates.order_parameter =
         -steepest.tail(n) / (material.interface_width * material.kinetic_coefficient);
   }
-}
-
-mesh::Positions CeresStepper::positions_of(const Eigen::VectorXd& unknowns) const {
-  return graph_.positions(unknowns.head(graph_.reference.rows()));
-}
-
-Eigen::VectorXd CeresStepper::order_parameter_of(const Eigen::VectorXd& unknowns) const {
-  return unknowns.tail(unknowns.size() - graph_.reference.rows());
 }
 
 double CeresStepper::move_of(const Eigen::VectorXd& unknowns) const {

@@ -32,23 +32,29 @@ class CeresStepper final : public Stepper {
     return point_.sample.energy;
   }
   StepReport step(double end_time) override;
-  /// Takes the constraints to round-off along the steepest directions of the metric.
+  /// Takes the constraints to round-off along the steepest directions of the metric, or with
+  /// `polish` the state to the equilibrium.
   StepReport finish() override;
   /// Nothing is damped here: the nodes move along normals, or are redistributed.
   void set_damping(double) override {}
 
  private:
+  /// What went wrong; empty: nothing.
+  [[nodiscard]] std::string try_step();
   void renew_reference();
   void linearise();
-  [[nodiscard]] InnerResult minimise();
+  [[nodiscard]] InnerResult minimise(const InnerProblem& inner);
   [[nodiscard]] InnerProblem inner_problem() const;
+  [[nodiscard]] Eigen::VectorXd penalties() const;
+  void choose_multipliers(const InnerProblem& last, double error_before);
   /// What speaks against the result of an inner minimisation; empty: nothing.
   [[nodiscard]] std::string objection(const InnerResult& result);
-  void accept(InnerResult result);
+  void accept(InnerResult result, const InnerProblem& inner);
   void care_for_mesh();
   void retreat();
   void sample_at(const mesh::Positions& positions, const Eigen::VectorXd& order_parameter);
-  [[nodiscard]] bool restore_constraints();
+  [[nodiscard]] std::string restore_constraints();
+  [[nodiscard]] StepReport polish();
   void store();
   [[nodiscard]] StepReport report(StepStatus status, std::string reason) const;
   [[nodiscard]] std::string stall_text() const;
@@ -58,8 +64,6 @@ class CeresStepper final : public Stepper {
   [[nodiscard]] mesh::Surface surface(const mesh::Positions& positions) const {
     return {state_.triangulation, positions};
   }
-  [[nodiscard]] mesh::Positions positions_of(const Eigen::VectorXd& unknowns) const;
-  [[nodiscard]] Eigen::VectorXd order_parameter_of(const Eigen::VectorXd& unknowns) const;
   /// max|d| in R_c.
   [[nodiscard]] double move_of(const Eigen::VectorXd& unknowns) const;
   /// Distance to the minimum, in k_1^(1/2).
@@ -76,7 +80,9 @@ class CeresStepper final : public Stepper {
   std::optional<MinimiserCoordinates> coordinates_;  // of graph_ and metric_
   GraphPoint point_;
   Slopes slopes_;
-  Eigen::VectorXd multipliers_;
+  Eigen::VectorXd multipliers_;       // least squares in the metric: those of the state
+  Eigen::VectorXd next_multipliers_;  // of the next inner minimisation
+  double penalty_growth_ = 1;
   bool is_reference_old_ = false;  // the next step takes a new one
   bool keeps_reference_ = false;   // near the end
   double reference_quality_ = 0;

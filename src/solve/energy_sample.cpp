@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -39,6 +40,15 @@ Eigen::VectorXd along_graph(const problem::NormalGraph& graph, const mesh::Posit
   result.head(n) = positions.cwiseProduct(graph.directions).rowwise().sum();
   if (is_two_phase && order_parameter.size() > 0) result.tail(n) = order_parameter;
   return result;
+}
+
+mesh::Positions positions_of(const problem::NormalGraph& graph, const Eigen::VectorXd& unknowns) {
+  return graph.positions(unknowns.head(graph.reference.rows()));
+}
+
+Eigen::VectorXd order_parameter_of(const problem::NormalGraph& graph,
+                                   const Eigen::VectorXd& unknowns) {
+  return unknowns.tail(unknowns.size() - graph.reference.rows());
 }
 
 ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& scales) {
@@ -105,18 +115,20 @@ Eigen::MatrixXd ConstraintSet::gradients(const problem::NormalGraph& graph,
   return result;
 }
 
+Eigen::VectorXd ConstraintSet::lagrangian_gradient(const problem::NormalGraph& graph,
+                                                   const EnergySample& sample,
+                                                   const Eigen::VectorXd& multipliers,
+                                                   bool is_two_phase) const {
+  return along_graph(graph, sample.gradient.positions, sample.gradient.order_parameter,
+                     is_two_phase) +
+         gradients(graph, sample.constraints, is_two_phase) * multipliers;
+}
+
 problem::PerConstraint ConstraintSet::named(const Eigen::VectorXd& multipliers) const {
   problem::PerConstraint result;
   const std::array<std::optional<double>*, 3> entries{&result.volume, &result.area, &result.phase};
   for (Eigen::Index k = 0; k < size(); ++k)
     *entries[active_[static_cast<std::size_t>(k)]] = multipliers[k];
-  return result;
-}
-
-problem::Multipliers ConstraintSet::all(const Eigen::VectorXd& multipliers) const {
-  problem::Multipliers result{};
-  for (Eigen::Index k = 0; k < size(); ++k)
-    result[active_[static_cast<std::size_t>(k)]] = multipliers[k];
   return result;
 }
 

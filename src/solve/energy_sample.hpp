@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <string>
+#include <vector>
 
 #include "vesica/problem/energy_problem.hpp"
 #include "vesica/problem/normal_graph.hpp"
@@ -29,6 +30,12 @@ struct EnergySample {
                                           const Eigen::VectorXd& order_parameter,
                                           bool is_two_phase);
 
+/// The two parts of the unknowns: x = X + d n, and c, shape (0) for a single phase.
+[[nodiscard]] mesh::Positions positions_of(const problem::NormalGraph& graph,
+                                           const Eigen::VectorXd& unknowns);
+[[nodiscard]] Eigen::VectorXd order_parameter_of(const problem::NormalGraph& graph,
+                                                 const Eigen::VectorXd& unknowns);
+
 /// The active constraints C_i = target_i of a case, in the order volume, area, phase difference.
 class ConstraintSet {
  public:
@@ -47,8 +54,12 @@ class ConstraintSet {
   [[nodiscard]] Eigen::MatrixXd gradients(const problem::NormalGraph& graph,
                                           const problem::ConstraintEvaluation& evaluation,
                                           bool is_two_phase) const;
+  /// Derivative of E + sum lambda_i C_i with respect to the unknowns of a graph.
+  [[nodiscard]] Eigen::VectorXd lagrangian_gradient(const problem::NormalGraph& graph,
+                                                    const EnergySample& sample,
+                                                    const Eigen::VectorXd& multipliers,
+                                                    bool is_two_phase) const;
   [[nodiscard]] problem::PerConstraint named(const Eigen::VectorXd& multipliers) const;
-  [[nodiscard]] problem::Multipliers all(const Eigen::VectorXd& multipliers) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd relative_errors(

@@ -36,11 +36,11 @@ void expect_table_1(int resolution, double energy_tolerance, long max_evaluation
 }
 
 TEST(MinimisationRegression, Table1With1154NodesTakesFewEvaluations) {
-  expect_table_1(4, 8e-3, 90);
+  expect_table_1(4, 8e-3, 60);
 }
 
 TEST(MinimisationRegression, Table1With4610NodesTakesNoMoreEvaluations) {
-  expect_table_1(8, 8e-4, 90);
+  expect_table_1(8, 8e-4, 60);
 }
 
 constexpr double prolate_energy = 34.870181359;
@@ -55,7 +55,7 @@ TEST(MinimisationRegression, ProlateOfReducedVolume08) {
       minimize());
   expect_converged(coarse);
   EXPECT_NEAR(coarse.energy(), prolate_energy, 1e-4 * prolate_energy);
-  EXPECT_LE(coarse.counts().residuals, 80);
+  EXPECT_LE(coarse.counts().residuals, 50);
   const auto fine = test::run_case(
       test::single_phase_case(test::make_ellipsoid(prolate_axes, 8), prolate_volume, 4 * pi),
       minimize());
@@ -71,7 +71,7 @@ TEST(MinimisationRegression, APerturbedOblateLeavesTheSaddleAndBecomesTheProlate
   expect_converged(result);
   EXPECT_NEAR(result.energy(), prolate_energy, 2e-4 * prolate_energy);
   EXPECT_GT(result.outcome.smallest_quality, 0.25);
-  EXPECT_LE(result.counts().residuals, 300);
+  EXPECT_LE(result.counts().residuals, 200);
 }
 
 test::RelaxationCase constant_gaussian_case(double rigidity) {
