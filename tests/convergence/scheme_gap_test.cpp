@@ -55,7 +55,6 @@ TEST(SchemeGap, OfTheProlateFallsAtOrderTwoAndAHalf) {
   };
   const auto coarse = measure_gap(prolate(4));
   const auto fine = measure_gap(prolate(8));
-              fine.as_they_end);
   EXPECT_GT(coarse.on_one_mesh, 1e-5);
   EXPECT_GT(test::observed_order(coarse.on_one_mesh, fine.on_one_mesh, 2), 2.5);
   EXPECT_GT(test::observed_order(coarse.as_they_end, fine.as_they_end, 2), 2.5);
