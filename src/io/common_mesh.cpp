@@ -28,18 +28,18 @@ Equilibrium polished(const ComparedRun& run, const problem::State& state,
 
 }  // namespace
 
-std::array<Equilibrium, 2> on_common_mesh(const ComparedRun& first, const ComparedRun& second) {
+EquilibriumPair on_common_mesh(const ComparedRun& first, const ComparedRun& second) {
   if (is_polished_minimum(first) && is_polished_minimum(second)) {
     try {
       const auto motion = problem::shape_distance(first.state, second.state).motion;
       const auto moved = problem::on_mesh_of(first.state, second.state, motion);
       const auto& reference = first.state.values.positions;
-      return {polished(first, first.state, reference), polished(second, moved, reference)};
+      return {polished(first, first.state, reference), polished(second, moved, reference), true};
     } catch (const RecoverableError&) {
       // the shapes are too far apart for one mesh: no equilibrium in common
     }
   }
-  return {as_it_ended(first), as_it_ended(second)};
+  return {as_it_ended(first), as_it_ended(second), false};
 }
 
 }  // namespace vesica::io

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "vesica/io/comparison.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -13,11 +11,17 @@ struct Equilibrium {
   double energy = 0;  ///< [energy]
 };
 
-/// The equilibria that two runs are compared by. Polished equilibria of the discrete energy are both
-/// described by the nodes of the first run and polished there once more: what the placement of the
-/// nodes does to the energy, 1e-5 to 1e-3 of it, then cancels and differences are those of
-/// the minima. Other runs are compared as they ended.
-[[nodiscard]] std::array<Equilibrium, 2> on_common_mesh(const ComparedRun& first,
-                                                        const ComparedRun& second);
+/// What two runs are compared by.
+struct EquilibriumPair {
+  Equilibrium first;
+  Equilibrium second;
+  bool is_on_common_mesh = false;
+};
+
+/// The equilibria that two runs are compared by. Polished equilibria of the discrete energy are
+/// both described by the nodes of the first run and polished there once more: what the placement of
+/// the nodes does to the energy, 1e-5 to 1e-3 of it, then cancels and differences are those of the
+/// minima. Other runs are compared as they ended.
+[[nodiscard]] EquilibriumPair on_common_mesh(const ComparedRun& first, const ComparedRun& second);
 
 }  // namespace vesica::io

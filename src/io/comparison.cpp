@@ -101,8 +101,9 @@ void conclude(const ComparedRun& first, const ComparedRun& second,
 
 Difference difference_of(const ComparedRun& first, const ComparedRun& second,
                          const EquilibriumTolerances& tolerances) {
-  const auto [a, b] = on_common_mesh(first, second);
+  const auto [a, b, is_on_common_mesh] = on_common_mesh(first, second);
   Difference difference;
+  difference.is_on_common_mesh = is_on_common_mesh;
   difference.first = first.name;
   difference.second = second.name;
   difference.energy = b.energy - a.energy;
@@ -133,6 +134,7 @@ void add_difference(JsonWriter& json, const Difference& difference) {
   json.add("shape_l2", difference.shape.l2);
   json.add("shape_hausdorff", difference.shape.hausdorff);
   json.add("phase_l2", difference.shape.phase_l2);
+  json.add("on_common_mesh", std::optional<bool>(difference.is_on_common_mesh));
   json.add("same_equilibrium", difference.same_equilibrium);
   json.add("conclusion", difference.conclusion);
 }

@@ -99,7 +99,7 @@ std::string energy_script(const Comparison& comparison) {
              "set terminal pngcairo size 1200,900 font 'sans,14' background rgb 'white'\n"
              "set output 'energy.png'\n"
              "lowest = {}\n"
-             "set multiplot layout 2,1 title 'Energy against seconds (wall clock)'\n"
+             "set multiplot layout 2,1 title 'Energy against processor seconds'\n"
              "set title\nset xlabel\nset bmargin\nset logscale x\nunset key\n"
              "set ylabel 'energy'\n",
              lowest) +

@@ -113,6 +113,8 @@ void add_work(SideBySide& table) {
   table.add("mesh quality", "{:.3f}",
             [](const auto& run) { return run.verdict.outcome.diagnostics.quality; });
   table.add("seconds", "{:.2f}", [=](const auto& run) { return report(run).seconds.total; });
+  table.add("  processor", "{:.2f}",
+            [=](const auto& run) { return report(run).seconds.processor; });
   count("steps", &solve::SolverCounts::steps);
   count("evaluations", &solve::SolverCounts::residuals);
   count("factorisations", &solve::SolverCounts::factorisations);
@@ -124,8 +126,10 @@ std::string optional_text(std::string_view name, const std::optional<double>& va
 
 std::string difference_text(const Difference& difference) {
   const problem::PerConstraint& lambda = difference.multipliers;
-  return fmt::format("{} - {}: energy {:.3e} (relative {:.2e})", difference.second,
-                     difference.first, difference.energy, difference.relative_energy) +
+  return fmt::format(
+             "{} - {}{}: energy {:.3e} (relative {:.2e})", difference.second, difference.first,
+             difference.is_on_common_mesh ? ", both polished on the nodes of the first" : "",
+             difference.energy, difference.relative_energy) +
          optional_text("lambda_V", lambda.volume) + optional_text("lambda_A", lambda.area) +
          optional_text("lambda_c", lambda.phase) +
          fmt::format("\n  shapes {:.2e} R_c in L2, {:.2e} R_c Hausdorff", difference.shape.l2,

@@ -91,7 +91,8 @@ std::string numerics_text(const Verdict& verdict) {
   work.count("residuals", counts.residuals).count("Jacobians", counts.jacobians);
   work.count("factorisations", counts.factorisations).count("failures", counts.failures);
   Row seconds("seconds");
-  seconds.add("", spent.total, "{:.2f}").add("residual", spent.residual, "{:.2f}");
+  seconds.add("", spent.total, "{:.2f}").add("processor", spent.processor, "{:.2f}");
+  seconds.add("residual", spent.residual, "{:.2f}");
   seconds.add("Jacobian", spent.jacobian, "{:.2f}")
       .add("factorisation", spent.factorisation, "{:.2f}");
   seconds.add("solve", spent.solve, "{:.2f}");

@@ -152,6 +152,7 @@ solve::StepReport report_of(const JsonReader& json) {
   counts.failures = json.count("/counts/failures");
   solve::SolverSeconds& seconds = report.seconds;
   seconds.total = json.number("/seconds/total");
+  seconds.processor = json.number("/seconds/processor");
   seconds.residual = json.number("/seconds/residual");
   seconds.jacobian = json.number("/seconds/jacobian");
   seconds.factorisation = json.number("/seconds/factorisation");
@@ -189,7 +190,7 @@ Verdict read_verdict(const fs::path& file) {
 }
 
 EnergyHistory history_of(const hdf5::ReadableFile& file) {
-  return {file.numbers("/series/step"), file.numbers("/series/seconds_total"),
+  return {file.numbers("/series/step"), file.numbers("/series/seconds_processor"),
           file.numbers("/series/energy_total")};
 }
 

@@ -66,6 +66,7 @@ constexpr std::array quantities{
     Quantity{"factorisations", [](const View& v) { return count(v.report.counts.factorisations); }},
     Quantity{"failures", [](const View& v) { return count(v.report.counts.failures); }},
     Quantity{"seconds_total", [](const View& v) { return v.report.seconds.total; }},
+    Quantity{"seconds_processor", [](const View& v) { return v.report.seconds.processor; }},
     Quantity{"seconds_residual", [](const View& v) { return v.report.seconds.residual; }},
     Quantity{"seconds_jacobian", [](const View& v) { return v.report.seconds.jacobian; }},
     Quantity{"seconds_factorisation", [](const View& v) { return v.report.seconds.factorisation; }},

@@ -97,6 +97,7 @@ void add_work(JsonWriter& json, const solve::StepReport& report) {
   json.end_object();
   json.begin_object("seconds");
   json.add("total", report.seconds.total);
+  json.add("processor", report.seconds.processor);
   json.add("residual", report.seconds.residual);
   json.add("jacobian", report.seconds.jacobian);
   json.add("factorisation", report.seconds.factorisation);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 
 namespace vesica::relax {
@@ -29,7 +30,7 @@ class Run {
     outcome_.initial_quality = outcome_.smallest_quality = diagnostics_.quality;
     std::optional<Stop> end = look_and_respond();
     while (!end) {
-      report_ = stepper_.step(stop_.end_time);
+      report_ = timed([&] { return stepper_.step(stop_.end_time); });
       if (report_.status == solve::StepStatus::failed) {
         end = Stop{RunStatus::numerical_failure, report_.reason};
         break;
@@ -46,6 +47,16 @@ class Run {
 
  private:
   [[nodiscard]] StepView view() const { return {stepper_.state(), report_, diagnostics_}; }
+
+  /// Adds the processor seconds of a call of the stepper to those before it.
+  template <class Call>
+  solve::StepReport timed(Call&& call) {
+    const std::clock_t start = std::clock();
+    solve::StepReport report = call();
+    processor_seconds_ += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    report.seconds.processor = processor_seconds_;
+    return report;
+  }
 
   void measure() {
     diagnostics_ = problem::measure(model_, stepper_.state());
@@ -79,7 +90,7 @@ class Run {
   /// The state rests: take the constraints to round-off, then look at all criteria once more. When
   /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
-    const auto report = stepper_.finish();
+    const auto report = timed([&] { return stepper_.finish(); });
     if (report.status == solve::StepStatus::accepted) {
       report_ = report;
       measure();
@@ -114,6 +125,7 @@ class Run {
   std::span<Observer* const> observers_;
   std::span<Controller* const> controllers_;
   Stationarity stationarity_;
+  double processor_seconds_ = 0;
   solve::StepReport report_;
   problem::Diagnostics diagnostics_;
   Outcome outcome_;

@@ -40,6 +40,9 @@ struct Difference {
   double relative_energy = 0;          ///< over the larger modulus
   problem::PerConstraint multipliers;  ///< second - first over the larger modulus
   problem::ShapeDistance shape;
+  /// Both are polished minima of the discrete energy and were polished once more on the nodes of
+  /// the first: all differences are those of the two minima on one mesh.
+  bool is_on_common_mesh = false;
   std::optional<bool> same_equilibrium;  ///< absent unless both runs have converged
   std::string conclusion;                ///< one sentence
 };
