@@ -6,6 +6,7 @@
 #include "inner_minimisation.hpp"
 #include "mesh_care.hpp"
 #include "vesica/problem/scales.hpp"
+#include "vesica/solve/polish.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
 
@@ -55,6 +56,7 @@ class CeresStepper final : public Stepper {
   void sample_at(const mesh::Positions& positions, const Eigen::VectorXd& order_parameter);
   [[nodiscard]] std::string restore_constraints();
   [[nodiscard]] StepReport polish();
+  void take(const Equilibrium& equilibrium);
   void store();
   [[nodiscard]] StepReport report(StepStatus status, std::string reason) const;
   [[nodiscard]] std::string stall_text() const;

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "ceres_stepper.hpp"
 #include "newton_system.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/solve/polish.hpp"
 
 namespace vesica::solve {
 
@@ -36,27 +36,37 @@ StepReport CeresStepper::finish() {
 
 /// Newton's method on the equations of the equilibrium. Its work is in the report.
 StepReport CeresStepper::polish() {
+  std::optional<Equilibrium> equilibrium;
+  std::string trouble;
   try {
-    const auto equilibrium =
-        find_equilibrium(options_, problem_.model(), state_, state_.values.positions);
-    if (equilibrium.report.is_converged) {
-      sample_at(equilibrium.state.values.positions, equilibrium.state.values.order_parameter);
-      renew_reference();
-      store();
-      state_.values.multipliers = equilibrium.state.values.multipliers;
+    const ScopedTimer timer(seconds_.total);
+    equilibrium = find_equilibrium(options_, problem_.model(), state_, state_.values.positions);
+    if (equilibrium->report.is_converged) {
+      take(*equilibrium);
+    } else {
+      trouble = "polish: Newton's method does not converge";
     }
-    auto result = report(StepStatus::accepted, {});
-    result.counts += equilibrium.counts;
-    result.seconds += equilibrium.seconds;
-    result.polish = equilibrium.report;
-    if (!equilibrium.report.is_converged) {
-      result.status = StepStatus::failed;
-      result.reason = "polish: Newton's method does not converge";
-    }
-    return result;
-  } catch (const RecoverableError& trouble) {
-    return report(StepStatus::failed, fmt::format("polish: {}", trouble.what()));
+  } catch (const RecoverableError& error) {
+    trouble = fmt::format("polish: {}", error.what());
   }
+  const auto status = trouble.empty() ? StepStatus::accepted : StepStatus::failed;
+  auto result = report(status, std::move(trouble));
+  if (!equilibrium) return result;
+  result.counts += equilibrium->counts;
+  auto seconds = equilibrium->seconds;
+  seconds.total = 0;  // in the total of the stepper
+  result.seconds += seconds;
+  result.polish = equilibrium->report;
+  return result;
+}
+
+void CeresStepper::take(const Equilibrium& equilibrium) {
+  const auto& values = equilibrium.state.values;
+  sample_at(values.positions, values.order_parameter);
+  renew_reference();
+  next_multipliers_ = multipliers_;
+  store();
+  state_.values.multipliers = values.multipliers;
 }
 
 /// Newton's method along the constraint directions, with the derivatives kept. What went wrong;

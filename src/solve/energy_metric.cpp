@@ -16,8 +16,6 @@ namespace {
 
 constexpr double smallest_reduced_tension = 1e-2;  // of sigma, in k_1 / R_c
 
-constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
 /// Weights of grad . grad and of the product at a point, by order parameter.
 struct Weights {
   double stiffness = 0;

@@ -35,6 +35,17 @@ TEST(Progress, ALineTellsTimeStepEnergyVelocityErrorAndQuality) {
   EXPECT_EQ(progress_line({state, report, measured}), line_12);
 }
 
+TEST(Progress, ALineOfAMinimisationTellsEvaluationsAndTheDistanceToTheMinimum) {
+  const problem::State state = fake_state();
+  const problem::Diagnostics measured = fake_diagnostics();
+  solve::StepReport report = fake_report(12);
+  report.counts.residuals = 71;
+  report.gradient = 3.2e-4;
+  const std::string line = progress_line({state, report, measured});
+  EXPECT_TRUE(line.starts_with("step 12  evaluations 71  F ")) << line;
+  EXPECT_NE(line.find("  distance 3.2e-04  C "), std::string::npos) << line;
+}
+
 TEST(Progress, ATerminalHasOneLineThatIsRewritten) {
   const std::string text = printed(ProgressStyle::rewriting, 12);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);

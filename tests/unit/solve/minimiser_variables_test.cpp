@@ -198,7 +198,7 @@ TEST(EnergyMetric, MeasuresTheExpansionOfASphereLikeTheContinuousOperator) {
   const double expected = std::pow(radius, 4) / (4 * 2.5) * 4 * pi * radius * radius;
   EXPECT_NEAR(metric.gather(derivative).squaredNorm(), expected, 1e-3 * expected);
   const Eigen::VectorXd velocity = metric.l2_gradient(derivative);
-  EXPECT_NEAR(velocity.mean(), 1, 1e-3);
+  EXPECT_NEAR(derivative.dot(velocity) / derivative.sum(), 1, 1e-3);
   EXPECT_LT((velocity.array() - 1).abs().maxCoeff(), 0.1);  // noise of the nodal normals
 }
 
