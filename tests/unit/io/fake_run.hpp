@@ -82,6 +82,7 @@ inline solve::StepReport fake_report(long steps) {
   report.counts.steps = steps;
   report.counts.newton = 2 * steps;
   report.seconds.total = 0.5;
+  report.seconds.processor = 0.5;
   return report;
 }
 
