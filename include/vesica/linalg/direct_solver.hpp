@@ -19,7 +19,7 @@ inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::klu;
 inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::umfpack;
 #endif
 
-/// Sparse LU. The pattern is analysed once, at construction; one of the four abstract classes of
+/// Sparse LU. The pattern is analysed once, at construction; one of the five abstract classes of
 /// the library.
 class DirectSolver {
  public:

@@ -82,7 +82,7 @@ struct StepReport {
   std::string reason;                  ///< for a failed step: call, code by name, and what to try
 };
 
-/// Advances a State that it owns. One of the four abstract classes of the library.
+/// Advances a State that it owns. One of the five abstract classes of the library.
 class Stepper {
  public:
   Stepper() = default;
