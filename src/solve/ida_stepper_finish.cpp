@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "backward_euler.hpp"
+#include "gauged_relaxation.hpp"
+#include "ida_stepper.hpp"
+#include "vesica/solve/polish.hpp"
+
+namespace vesica::solve {
+
+namespace {
+
+using sundials::check;
+using sundials::view;
+
+// Polish of the weak form.
+constexpr int max_polish_steps = 12;
+constexpr double polish_step_growth = 8;
+constexpr double largest_polish_step = 1;     // natural times
+constexpr double mesh_holding_damping = 1e4;  // natural units: nodes stay where they are
+constexpr double polished_gradient = 1e-8;
+
+}  // namespace
+
+StepReport IdaStepper::finish() {
+  const ScopedTimer timer(total_seconds_);
+  try {
+    if (options_.scheme == Scheme::variational && options_.polish) return polish_energy();
+    if (options_.polish) return polish_weak_form();
+    if (options_.final_constraint_solve) take_implicit_step(last_step_size());
+  } catch (const RecoverableError& trouble) {
+    return report(StepStatus::failed, fmt::format("final solve: {}", trouble.what()));
+  }
+  return report(StepStatus::accepted, {});
+}
+
+double IdaStepper::last_step_size() const {
+  double size = 0;
+  check(IDAGetLastStep(ida_.get(), &size), "IDAGetLastStep");
+  return size;
+}
+
+/// One backward-Euler step with the constraints themselves in place of (e). Throws RecoverableError
+/// when it cannot be done.
+void IdaStepper::take_implicit_step(double size) {
+  BackwardEulerStep step{
+      settings_, 0, size, y_, problem_->differential_mask(), Eigen::VectorXd(y_.size())};
+  const auto weights = sundials::make_vector(y_.size(), context_);
+  check(IDAGetErrWeights(ida_.get(), weights.get()), "IDAGetErrWeights");
+  step.weights = view(weights.get());
+  step.time = state_.time + step.step_size;
+  const auto y = solve_backward_euler(system_, step);
+  if (!y) throw RecoverableError("Newton's method does not converge");
+  y_rate_ = step.rates(*y);
+  y_ = *y;
+  store(step.time, y_, y_rate_);
+}
+
+/// ||v_nu|| of the normal force that moves the surface, over that of the pressure, or of k_kappa /
+/// R_c^3 where the pressure is less.
+double IdaStepper::relative_force(const problem::Diagnostics& measured) const {
+  const double pressure = std::abs(state_.values.multipliers.volume.value_or(0));
+  return measured.velocity.normal /
+         (std::sqrt(measured.area) * std::max(pressure, scales_.multiplier()));
+}
+
+/// The weak form has no energy to minimise: implicit steps that grow take the flow, held by the
+/// rigid gauge and with its nodes held along the surface, to rest.
+StepReport IdaStepper::polish_weak_form() {
+  const auto& model = problem_->model();
+  GaugedRelaxation gauged(state_, model, options_.threads);
+  NewtonSystem system(gauged, options_.linear_solver);
+  const Eigen::VectorXd weights = (2 * options_.rtol * gauged.units(scales_)).cwiseInverse();
+  Eigen::VectorXd y = gauged.initial_values(state_);
+  PolishReport polish;
+  double size = last_step_size();
+  auto settings = settings_;
+  settings.damping = mesh_holding_damping * scales_.damping();
+  while (polish.iterations < max_polish_steps && !polish.is_converged) {
+    const BackwardEulerStep step{settings, state_.time + size,         size,
+                                 y,        gauged.differential_mask(), weights};
+    const auto next = solve_backward_euler(system, step);
+    if (!next) break;
+    const Eigen::VectorXd rates = step.rates(*next);
+    y = *next;
+    ++polish.iterations;
+    state_.values = gauged.values(y);
+    state_.rates = gauged.rates(y, rates);
+    polish.gradient = relative_force(problem::measure(model, state_));
+    polish.is_converged = polish.gradient < polished_gradient;
+    size = std::min(polish_step_growth * size, largest_polish_step * scales_.time());
+  }
+  polish.curvature = lowest_curvature(options_, model, state_);
+  auto result = report(StepStatus::accepted, {});
+  result.counts += system.counts();
+  result.seconds += system.seconds();
+  result.polish = polish;
+  return result;
+}
+
+StepReport IdaStepper::polish_energy() {
+  const auto equilibrium =
+      find_equilibrium(options_, problem_->model(), state_, state_.values.positions);
+  auto result = report(StepStatus::accepted, {});
+  result.counts += equilibrium.counts;
+  result.seconds += equilibrium.seconds;
+  result.polish = equilibrium.report;
+  if (!equilibrium.report.is_converged) {
+    result.status = StepStatus::failed;
+    result.reason = "polish: Newton's method does not converge";
+    return result;
+  }
+  state_ = equilibrium.state;
+  polished_energy_ = equilibrium.energy;
+  return result;
+}
+
+}  // namespace vesica::solve
