@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "vesica/fem/mass_matrix.hpp"
 #include "vesica/core/parallel.hpp"
+#include "vesica/fem/mass_matrix.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
 

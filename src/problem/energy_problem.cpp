@@ -214,9 +214,9 @@ Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const 
   Eigen::VectorXd curvature(normals.rows());
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {
     const double c = model_.is_two_phase ? fields.order_parameter[i] : 1.0;
-    curvature[i] = model::interpolate(material.spontaneous_curvature, c) -
-                   fields.moment.row(i).dot(normals.row(i)) /
-                       model::interpolate(material.bending_rigidity, c);
+    curvature[i] =
+        model::interpolate(material.spontaneous_curvature, c) -
+        fields.moment.row(i).dot(normals.row(i)) / model::interpolate(material.bending_rigidity, c);
   }
   return curvature;
 }

@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "vesica/fem/mass_matrix.hpp"
 #include "nodal_shape_operators.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/fem/mass_matrix.hpp"
 #include "vesica/fem/quadrature.hpp"
 
 namespace vesica::fem {
