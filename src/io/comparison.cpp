@@ -75,14 +75,29 @@ std::string agreement(const Difference& difference) {
   return text;
 }
 
-/// A flow may come to rest on a saddle, so the word is equilibria.
-std::string disagreement(const Difference& difference, const std::vector<std::string>& found) {
-  return fmt::format(
-      "{} and {} found different equilibria (two local minima, unless one is a saddle), {} the "
-      "lower "
-      "one: {}",
-      difference.first, difference.second,
-      difference.energy < 0 ? difference.second : difference.first, fmt::join(found, ", "));
+/// What the polish of the two runs tells about their equilibria. A flow may come to rest on a
+/// saddle.
+std::string kind_of_equilibria(const ComparedRun& first, const ComparedRun& second) {
+  std::vector<std::string> saddles;
+  bool are_known = true;
+  for (const ComparedRun* run : {&first, &second}) {
+    const auto& polish = run->verdict.outcome.report.polish;
+    are_known = are_known && polish;
+    if (polish && polish->curvature.value < 0) {
+      saddles.push_back(fmt::format("that of {} is a saddle, lowest curvature {:.3g}", run->name,
+                                    polish->curvature.value));
+    }
+  }
+  if (!saddles.empty()) return fmt::format("{}", fmt::join(saddles, "; "));
+  return are_known ? "two local minima" : "two local minima, unless one is a saddle";
+}
+
+std::string disagreement(const Difference& difference, const std::string& kind,
+                         const std::vector<std::string>& found) {
+  return fmt::format("{} and {} found different equilibria ({}), {} the lower one: {}",
+                     difference.first, difference.second, kind,
+                     difference.energy < 0 ? difference.second : difference.first,
+                     fmt::join(found, ", "));
 }
 
 void conclude(const ComparedRun& first, const ComparedRun& second,
@@ -96,7 +111,9 @@ void conclude(const ComparedRun& first, const ComparedRun& second,
   }
   const auto found = contradictions(difference, first.verdict, second.verdict, tolerances);
   difference.same_equilibrium = found.empty();
-  difference.conclusion = found.empty() ? agreement(difference) : disagreement(difference, found);
+  difference.conclusion = found.empty()
+                              ? agreement(difference)
+                              : disagreement(difference, kind_of_equilibria(first, second), found);
 }
 
 Difference difference_of(const ComparedRun& first, const ComparedRun& second,
