@@ -79,6 +79,9 @@ std::string numerics_text(const Verdict& verdict) {
   mesh.add("quality", outcome.diagnostics.quality, "{:.3f}")
       .add("at the start", outcome.initial_quality, "{:.3f}");
   mesh.add("smallest", outcome.smallest_quality, "{:.3f}");
+  mesh.add("area ratio", verdict.area_ratio, "{:.3g}");
+  if (verdict.smallest_normal_cosine < 0)
+    mesh.add("FOLDED: normal cosine", verdict.smallest_normal_cosine, "{:.2f}");
   Row polish("polish");
   if (const auto& report = outcome.report.polish) {
     polish.count("iterations", report->iterations).add("gradient", report->gradient, "{:.1e}");

@@ -179,6 +179,8 @@ Verdict read_verdict(const fs::path& file) {
   verdict.outcome.report = report_of(json);
   verdict.outcome.initial_quality = json.number("/mesh/quality_initial");
   verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
+  verdict.area_ratio = json.number("/mesh/area_ratio");
+  verdict.smallest_normal_cosine = json.number("/mesh/smallest_normal_cosine");
   verdict.method = json.text("/method");
   verdict.scheme = json.text("/scheme");
   verdict.time = json.number("/time");

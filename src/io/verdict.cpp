@@ -7,6 +7,7 @@
 
 #include "io/verdict_fields.hpp"
 #include "vesica/io/run_folder.hpp"
+#include "vesica/mesh/quality.hpp"
 
 namespace vesica::io {
 namespace {
@@ -46,6 +47,8 @@ void add_mesh(JsonWriter& json, const Verdict& verdict) {
   json.add("quality", verdict.outcome.diagnostics.quality);
   json.add("quality_initial", verdict.outcome.initial_quality);
   json.add("quality_smallest", verdict.outcome.smallest_quality);
+  json.add("area_ratio", verdict.area_ratio);
+  json.add("smallest_normal_cosine", verdict.smallest_normal_cosine);
   json.add("adaptions", 0);
   json.add("remeshings", 0);
   json.end_object();
@@ -117,6 +120,9 @@ Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
   verdict.time = state.time;
   verdict.multipliers = state.values.multipliers;
   verdict.shape = problem::shape_numbers(model, state);
+  const auto& positions = state.values.positions;
+  verdict.area_ratio = mesh::area_ratio(*state.triangulation, positions);
+  verdict.smallest_normal_cosine = mesh::smallest_normal_cosine(*state.triangulation, positions);
   verdict.num_nodes = state.triangulation->num_nodes();
   verdict.num_triangles = state.triangulation->num_triangles();
   return verdict;

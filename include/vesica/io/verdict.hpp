@@ -24,6 +24,8 @@ struct Verdict {
   double time = 0;  ///< [time]
   problem::PerConstraint multipliers;
   problem::ShapeNumbers shape;
+  double area_ratio = 0;              ///< largest element area over the smallest
+  double smallest_normal_cosine = 0;  ///< between neighbouring flat triangles; -1 for a fold
   std::int32_t num_nodes = 0;
   std::int32_t num_triangles = 0;
 };
