@@ -178,6 +178,8 @@ Verdict read_verdict(const fs::path& file) {
   verdict.outcome.report = report_of(json);
   verdict.outcome.initial_quality = json.number("/mesh/quality_initial");
   verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
+  // How many there were; when and why stands in the trajectory.
+  verdict.outcome.mesh_changes.resize(static_cast<std::size_t>(json.count("/mesh/remeshings")));
   verdict.method = json.text("/method");
   verdict.scheme = json.text("/scheme");
   verdict.time = json.number("/time");

@@ -47,7 +47,7 @@ void add_mesh(JsonWriter& json, const Verdict& verdict) {
   json.add("quality_initial", verdict.outcome.initial_quality);
   json.add("quality_smallest", verdict.outcome.smallest_quality);
   json.add("adaptions", 0);
-  json.add("remeshings", 0);
+  json.add("remeshings", static_cast<int>(verdict.outcome.mesh_changes.size()));
   json.end_object();
 }
 
