@@ -58,5 +58,19 @@ TEST(SlowAdaption, ReachesTable1) {
                    {test::table_1_energy, test::table_1_volume_multiplier, 8e-4, 2e-3});
 }
 
+TEST(SlowAdaption, ReachesHighLineTension) {
+  const double energy = 116.842137;
+  const double multiplier = -124.295708;
+  expect_reference(run_adaptively("line_tension", {"shape.resolution=5"}),
+                   {energy, multiplier, 2e-5 * energy, 2e-4 * -multiplier});
+}
+
+TEST(SlowAdaption, ReachesAThinNeck) {
+  const double energy = 56.579056;
+  const double multiplier = 18.933753;
+  expect_reference(run_adaptively("neck", {}),
+                   {energy, multiplier, 2e-5 * energy, 2e-4 * multiplier});
+}
+
 }  // namespace
 }  // namespace vesica
