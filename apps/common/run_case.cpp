@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "signals.hpp"
 #include "vesica/core/error.hpp"
@@ -13,6 +14,7 @@
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/trajectory_writer.hpp"
 #include "vesica/relax/damping_controller.hpp"
+#include "vesica/relax/mesh_controller.hpp"
 #include "vesica/relax/relax.hpp"
 #include "vesica/solve/make_stepper.hpp"
 
@@ -20,16 +22,22 @@ namespace vesica {
 namespace {
 
 relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
-                       solve::Stepper& stepper, relax::Controller& interrupt, bool is_quiet) {
+                       std::unique_ptr<solve::Stepper>& stepper, relax::Controller& interrupt,
+                       bool is_quiet) {
   const auto style =
       ::isatty(STDOUT_FILENO) != 0 ? io::ProgressStyle::rewriting : io::ProgressStyle::sparse;
   io::Progress progress(std::cout, is_quiet ? io::ProgressStyle::none : style);
   io::TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
-  relax::DampingController damping(config.damping,
-                                   problem::scales_of(vesicle.model, vesicle.start));
+  const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
+  relax::DampingController damping(config.damping, scales);
+  relax::MeshController mesh(config.adaption, vesicle.model, scales);
   const std::array<relax::Observer*, 2> observers{&progress, &trajectory};
-  const std::array<relax::Controller*, 2> controllers{&damping, &interrupt};
-  return relax::relax(stepper, vesicle.model, config.stop, observers, controllers);
+  std::vector<relax::Controller*> controllers{&damping, &interrupt};
+  if (config.adaption.enabled) controllers.push_back(&mesh);
+  const auto restart = [&](problem::State start, const solve::Restart& how) {
+    return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
+  };
+  return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
 RunResult relaxed(const io::RunConfig& config, const io::Case& vesicle,
@@ -44,7 +52,7 @@ RunResult relaxed(const io::RunConfig& config, const io::Case& vesicle,
             vesicle.start};
   }
   io::create_run_folder(config.output.directory);
-  relax::Outcome outcome = compute(config, vesicle, *stepper, interrupt, is_quiet);
+  relax::Outcome outcome = compute(config, vesicle, stepper, interrupt, is_quiet);
   return {io::make_verdict(std::move(outcome), config.solver, vesicle.model, stepper->state()),
           stepper->state()};
 }

@@ -94,6 +94,19 @@ double wanted_nodes(const mesh::Surface& surface, const Eigen::VectorXd& sizes) 
   return 8 / std::sqrt(3.0) * sum;
 }
 
+double longest_relative_edge(const mesh::Surface& surface, const Eigen::VectorXd& sizes) {
+  double longest = 0;
+  for (const mesh::QuadraticTriangle& nodes : surface.triangulation->triangles()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const mesh::NodeIndex from = nodes[i];
+      const mesh::NodeIndex to = nodes[(i + 1) % 3];
+      const double length = (surface.positions.row(from) - surface.positions.row(to)).norm();
+      longest = std::max(longest, 2 * length / (sizes[from] + sizes[to]));
+    }
+  }
+  return longest;
+}
+
 Eigen::VectorXd limited_sizes(const mesh::Surface& surface, Eigen::VectorXd sizes,
                               double max_nodes) {
   const double excess = wanted_nodes(surface, sizes) / max_nodes;

@@ -141,8 +141,14 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     const std::string path = fmt::format("{}.{}", table, key);
     Entry{document.place(path, node->source()), path, *node}.refuse(rule);
   };
-  if (config.adaption.enabled)
-    refuse("adaption", "enabled", "mesh adaption is not available in this version");
+  const bool can_adapt =
+      config.solver.method == solve::Method::ida && config.solver.scheme == solve::Scheme::paper;
+  if (config.adaption.enabled && !can_adapt) {
+    refuse("adaption", "enabled",
+           fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
+                       "and \"{}\"",
+                       name_of(config.solver.method), name_of(config.solver.scheme)));
+  }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
 }
 

@@ -35,6 +35,12 @@ std::string progress_line(const relax::StepView& view) {
       largest_error(measured.constraint_errors), measured.quality);
 }
 
+std::string mesh_change_line(const relax::MeshChange& change) {
+  return fmt::format("step {}  remeshed: {} -> {} nodes, quality {:.2f} -> {:.2f}, because {}",
+                     change.step, change.nodes_before, change.nodes_after, change.quality_before,
+                     change.quality_after, change.reason);
+}
+
 bool Progress::is_due(const relax::StepView& view) const {
   return is_first_ || style_ == ProgressStyle::rewriting ||
          view.report.counts.steps - last_step_ >= sparse_steps ||
@@ -54,6 +60,13 @@ void Progress::write(const relax::StepView& view) {
 
 void Progress::observe(const relax::StepView& view) {
   if (style_ != ProgressStyle::none && is_due(view)) write(view);
+}
+
+void Progress::mesh_changed(const relax::StepView&, const relax::MeshChange& change) {
+  if (style_ == ProgressStyle::none) return;
+  if (style_ == ProgressStyle::rewriting) out_ << '\r';
+  out_ << mesh_change_line(change) << (style_ == ProgressStyle::rewriting ? "\x1b[K" : "")
+       << std::endl;
 }
 
 void Progress::finish(const relax::StepView& view, const relax::Outcome&) {

@@ -181,6 +181,8 @@ Verdict read_verdict(const fs::path& file) {
   verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
   verdict.area_ratio = json.number("/mesh/area_ratio");
   verdict.smallest_normal_cosine = json.number("/mesh/smallest_normal_cosine");
+  // How many there were; when and why stands in the trajectory.
+  verdict.outcome.mesh_changes.resize(static_cast<std::size_t>(json.count("/mesh/remeshings")));
   verdict.method = json.text("/method");
   verdict.scheme = json.text("/scheme");
   verdict.time = json.number("/time");

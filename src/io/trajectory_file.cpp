@@ -109,6 +109,12 @@ void TrajectoryFile::write_mesh(std::shared_ptr<const mesh::Triangulation> trian
   const std::span<const mesh::QuadraticTriangle> triangles = triangulation->triangles();
   file_.make_group(mesh);
   file_.write(mesh + "/triangles", std::span(triangles.front().data(), 6 * triangles.size()), 6);
+  if (next_change_) {
+    file_.set_attribute(mesh, "step", static_cast<std::int64_t>(next_change_->step));
+    file_.set_attribute(mesh, "time", next_change_->time);
+    file_.set_attribute(mesh, "reason", next_change_->reason);
+    next_change_.reset();
+  }
   meshes_.push_back(mesh);
   last_triangulation_ = std::move(triangulation);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class TrajectoryFile {
   void add_row(const relax::StepView& view);
   /// A frame, and its mesh when the connectivity is new.
   void add_frame(const relax::StepView& view);
+  /// What the next frame's mesh is there for: attributes of its mesh group.
+  void add_mesh_change(const relax::MeshChange& change) { next_change_ = change; }
   void add_outcome(const relax::StepView& view, const relax::Outcome& outcome);
   /// Rows and frames reach the disk.
   void flush();
@@ -40,6 +43,7 @@ class TrajectoryFile {
   std::vector<XdmfFrame> frames_;
   std::vector<std::string> meshes_;
   std::shared_ptr<const mesh::Triangulation> last_triangulation_;
+  std::optional<relax::MeshChange> next_change_;
 };
 
 }  // namespace vesica::io

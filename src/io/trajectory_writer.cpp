@@ -33,12 +33,13 @@ class TrajectoryWriter::Writer {
     file_.add_row(view);
     last_positions_ = view.state.values.positions;
     const long step = view.report.counts.steps;
-    if (!file_.frames().empty() && step % output_.every_steps != 0) return;
-    file_.add_frame(view);
-    file_.flush();
-    if (output_.paraview)
-      write_text_file(folder_ / part_xdmf_name, xdmf_text(part_name, file_.frames()));
-    last_frame_step_ = step;
+    if (file_.frames().empty() || step % output_.every_steps == 0) add_frame(view);
+  }
+
+  void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) {
+    file_.add_mesh_change(change);
+    last_positions_ = view.state.values.positions;
+    add_frame(view);
   }
 
   void finish(const relax::StepView& view, const relax::Outcome& outcome) {
@@ -54,6 +55,14 @@ class TrajectoryWriter::Writer {
   }
 
  private:
+  void add_frame(const relax::StepView& view) {
+    file_.add_frame(view);
+    file_.flush();
+    if (output_.paraview)
+      write_text_file(folder_ / part_xdmf_name, xdmf_text(part_name, file_.frames()));
+    last_frame_step_ = view.report.counts.steps;
+  }
+
   /// Puts the finished files in place of those of an older run.
   void publish() const {
     std::error_code error;
@@ -87,6 +96,16 @@ void TrajectoryWriter::observe(const relax::StepView& view) {
   if (!writer_) return;
   try {
     writer_->observe(view);
+  } catch (...) {
+    writer_.reset();
+    throw;
+  }
+}
+
+void TrajectoryWriter::mesh_changed(const relax::StepView& view, const relax::MeshChange& change) {
+  if (!writer_) return;
+  try {
+    writer_->mesh_changed(view, change);
   } catch (...) {
     writer_.reset();
     throw;

@@ -50,7 +50,7 @@ void add_mesh(JsonWriter& json, const Verdict& verdict) {
   json.add("area_ratio", verdict.area_ratio);
   json.add("smallest_normal_cosine", verdict.smallest_normal_cosine);
   json.add("adaptions", 0);
-  json.add("remeshings", 0);
+  json.add("remeshings", static_cast<int>(verdict.outcome.mesh_changes.size()));
   json.end_object();
 }
 

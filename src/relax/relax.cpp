@@ -3,18 +3,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <utility>
+
+#include "vesica/core/error.hpp"
+#include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
 
 namespace {
 
+constexpr double restart_step = 0.3;  // of the last step, on a new mesh
+constexpr double retry_step = 0.03;   // the same after a failure
+
+/// The stepper of a run, and how it is replaced.
+struct StepperSlot {
+  solve::Stepper* current;
+  std::unique_ptr<solve::Stepper>* owner = nullptr;
+  const StepperFactory* factory = nullptr;
+
+  void replace(problem::State start, const solve::Restart& restart) {
+    *owner = (*factory)(std::move(start), restart);
+    current = owner->get();
+  }
+};
+
 /// One run; its members are what the steps of the loop share.
 class Run {
  public:
-  Run(solve::Stepper& stepper, const model::Model& model, const StopOptions& stop,
+  Run(StepperSlot stepper, const model::Model& model, const StopOptions& stop,
       std::span<Observer* const> observers, std::span<Controller* const> controllers)
       : stepper_(stepper),
         model_(model),
@@ -22,7 +42,7 @@ class Run {
         observers_(observers),
         controllers_(controllers),
         stationarity_(stop, model) {
-    report_.time = stepper.state().time;
+    report_.time = state().time;
   }
 
   Outcome execute() {
@@ -30,11 +50,12 @@ class Run {
     outcome_.initial_quality = outcome_.smallest_quality = diagnostics_.quality;
     std::optional<Stop> end = look_and_respond();
     while (!end) {
-      report_ = timed([&] { return stepper_.step(stop_.end_time); });
+      report_ = timed([&] { return stepper_.current->step(stop_.end_time); });
       if (report_.status == solve::StepStatus::failed) {
-        end = Stop{RunStatus::numerical_failure, report_.reason};
-        break;
+        if (!go_on_after_failure()) end = Stop{RunStatus::numerical_failure, report_.reason};
+        continue;
       }
+      step_size_ = report_.step_size;
       measure();
       end = find_nonsense();
       if (!end) end = look_and_respond();
@@ -46,21 +67,24 @@ class Run {
   void abandon(const std::string& reason) { conclude({RunStatus::numerical_failure, reason}); }
 
  private:
-  [[nodiscard]] StepView view() const { return {stepper_.state(), report_, diagnostics_}; }
+  [[nodiscard]] const problem::State& state() const { return stepper_.current->state(); }
+  [[nodiscard]] StepView view() const { return {state(), report_, diagnostics_}; }
 
-  /// Adds the processor seconds of a call of the stepper to those before it.
+  /// A report of the stepper with its processor seconds and the work of steppers before it.
   template <class Call>
   solve::StepReport timed(Call&& call) {
     const std::clock_t start = std::clock();
     solve::StepReport report = call();
+    report.counts += earlier_counts_;
+    report.seconds += earlier_seconds_;
     processor_seconds_ += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     report.seconds.processor = processor_seconds_;
     return report;
   }
 
   void measure() {
-    diagnostics_ = problem::measure(model_, stepper_.state());
-    if (const auto energy = stepper_.energy()) diagnostics_.energy = *energy;
+    diagnostics_ = problem::measure(model_, state());
+    if (const auto energy = stepper_.current->energy()) diagnostics_.energy = *energy;
     outcome_.smallest_quality = std::min(outcome_.smallest_quality, diagnostics_.quality);
   }
 
@@ -75,22 +99,77 @@ class Run {
   std::optional<Stop> look_and_respond() {
     for (auto* observer : observers_) observer->observe(view());
     std::optional<Stop> end;
+    std::optional<Remesh> remesh;
     for (auto* controller : controllers_) {
-      for (const auto& request : controller->respond(view())) {
+      for (auto& request : controller->respond(view())) {
         if (const auto* damping = std::get_if<SetDamping>(&request))
-          stepper_.set_damping(damping->alpha);
+          stepper_.current->set_damping(damping->alpha);
         if (const auto* stop = std::get_if<Stop>(&request); stop && !end) end = *stop;
+        if (const auto* wanted = std::get_if<Remesh>(&request)) remesh = *wanted;
       }
     }
-    if (!end && report_.counts.steps > 0 && stationarity_.is_at_rest(view())) end = try_to_finish();
+    const bool is_changed = !end && remesh && change_mesh(*remesh, restart_step);
+    if (!end && !is_changed && report_.counts.steps > 0 && stationarity_.is_at_rest(view()) &&
+        !change_mesh_at_rest()) {
+      end = try_to_finish();
+    }
     if (!end) end = stationarity_.limit(view());
     return end;
+  }
+
+  bool change_mesh_at_rest() {
+    for (auto* controller : controllers_) {
+      for (const auto& request : controller->respond_to_rest(view())) {
+        if (const auto* remesh = std::get_if<Remesh>(&request))
+          return change_mesh(*remesh, restart_step);
+      }
+    }
+    return false;
+  }
+
+  bool go_on_after_failure() {
+    for (auto* controller : controllers_) {
+      for (const auto& request : controller->respond_to_failure(view())) {
+        if (const auto* remesh = std::get_if<Remesh>(&request))
+          return change_mesh(*remesh, retry_step);
+      }
+    }
+    return false;
+  }
+
+  /// A new mesh and a new stepper; false when the new mesh is worse than none.
+  bool change_mesh(const Remesh& remesh, double step_factor) {
+    if (stepper_.factory == nullptr)
+      throw ConfigError("relax: a new mesh is asked for: needs a factory of steppers");
+    const auto begin = std::chrono::steady_clock::now();
+    auto changed = remeshed(model_, state(), remesh);
+    if (!changed) return false;
+    MeshChange change{report_.counts.steps,
+                      state().time,
+                      state().triangulation->num_nodes(),
+                      changed->triangulation->num_nodes(),
+                      diagnostics_.quality,
+                      0,
+                      remesh.reason};
+    step_size_ *= step_factor;
+    stepper_.replace(std::move(*changed), {step_size_});
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    report_.status = solve::StepStatus::accepted;
+    report_.seconds.total += elapsed.count();
+    earlier_counts_ = report_.counts;
+    earlier_seconds_ = report_.seconds;
+    stationarity_.forget_steps();
+    measure();
+    change.quality_after = diagnostics_.quality;
+    outcome_.mesh_changes.push_back(change);
+    for (auto* observer : observers_) observer->mesh_changed(view(), change);
+    return true;
   }
 
   /// The state rests: take the constraints to round-off, then look at all criteria once more. When
   /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
-    const auto report = timed([&] { return stepper_.finish(); });
+    const auto report = timed([&] { return stepper_.current->finish(); });
     if (report.status == solve::StepStatus::accepted) {
       report_ = report;
       measure();
@@ -119,7 +198,7 @@ class Run {
     return outcome_;
   }
 
-  solve::Stepper& stepper_;
+  StepperSlot stepper_;
   const model::Model& model_;
   const StopOptions& stop_;
   std::span<Observer* const> observers_;
@@ -127,21 +206,35 @@ class Run {
   Stationarity stationarity_;
   double processor_seconds_ = 0;
   solve::StepReport report_;
+  solve::SolverCounts earlier_counts_;  // of steppers on earlier meshes
+  solve::SolverSeconds earlier_seconds_;
+  double step_size_ = 0;  // of the last step, or with which the stepper begins
   problem::Diagnostics diagnostics_;
   Outcome outcome_;
 };
 
-}  // namespace
-
-Outcome relax(solve::Stepper& stepper, const model::Model& model, const StopOptions& stop,
-              std::span<Observer* const> observers, std::span<Controller* const> controllers) {
-  Run run(stepper, model, stop, observers, controllers);
+Outcome execute(Run& run) {
   try {
     return run.execute();
   } catch (const std::exception& error) {
     run.abandon(error.what());
     throw;
   }
+}
+
+}  // namespace
+
+Outcome relax(solve::Stepper& stepper, const model::Model& model, const StopOptions& stop,
+              std::span<Observer* const> observers, std::span<Controller* const> controllers) {
+  Run run({&stepper}, model, stop, observers, controllers);
+  return execute(run);
+}
+
+Outcome relax(std::unique_ptr<solve::Stepper>& stepper, const StepperFactory& restart,
+              const model::Model& model, const StopOptions& stop,
+              std::span<Observer* const> observers, std::span<Controller* const> controllers) {
+  Run run({stepper.get(), &stepper, &restart}, model, stop, observers, controllers);
+  return execute(run);
 }
 
 }  // namespace vesica::relax

@@ -51,6 +51,12 @@ bool Stationarity::is_at_rest(const StepView& view) {
          !targets_move(model_.targets, view.state.time);
 }
 
+void Stationarity::forget_steps() {
+  last_multipliers_.reset();
+  steps_at_rest_ = 0;
+  steps_without_newton_ = 0;
+}
+
 bool Stationarity::meets_velocity(const StepView& view) const {
   if (view.report.gradient) return *view.report.gradient < options_.gradient;
   return view.diagnostics.velocity.normal_rigid_free <

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ida_linear_solvers.hpp"
+#include "vesica/problem/dof_layout.hpp"
 #include "vesica/problem/relaxation_problem.hpp"
 #include "vesica/problem/variational_problem.hpp"
 
@@ -91,7 +92,7 @@ struct IdaStepper::Callbacks {
 };
 
 IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
-                       problem::State start)
+                       problem::State start, const std::optional<Restart>& restart)
     : options_(options),
       state_(std::move(start)),
       scales_(problem::scales_of(model, state_)),
@@ -104,9 +105,21 @@ IdaStepper::IdaStepper(const SolverOptions& options, const model::Model& model,
       context_(sundials::make_context()) {
   if (state_.damping > 0) settings_.damping = state_.damping;
   const ScopedTimer timer(total_seconds_);
-  find_initial_rates();
+  if (restart) {
+    go_on_from_start(*restart);
+  } else {
+    find_initial_rates();
+  }
   store(state_.time, y_, y_rate_);
   configure_ida();
+}
+
+void IdaStepper::go_on_from_start(const Restart& restart) {
+  const problem::DofLayout layout(state_.triangulation->num_nodes(), problem_->model());
+  y_ = layout.pack(state_.values);
+  y_rate_ = layout.pack(state_.rates);
+  options_.initial_step = restart.initial_step;
+  has_stepped_ = true;
 }
 
 /// Newton's method for x', c', kappa and lambda at given x and c. The factors are renewed only when

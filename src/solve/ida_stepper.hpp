@@ -9,6 +9,7 @@
 #include "sundials.hpp"
 #include "vesica/problem/flow_problem.hpp"
 #include "vesica/problem/scales.hpp"
+#include "vesica/solve/make_stepper.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
 
@@ -19,8 +20,10 @@ namespace vesica::solve {
 /// Jacobian as preconditioner, or those factors directly.
 class IdaStepper final : public Stepper {
  public:
-  /// Consistent initial values are found here. Throws SolverError when there are none.
-  IdaStepper(const SolverOptions& options, const model::Model& model, problem::State start);
+  /// Without `restart` consistent initial values are found here; throws SolverError when there are
+  /// none. With it (scheme paper) the values and rates of `start` are taken as they are.
+  IdaStepper(const SolverOptions& options, const model::Model& model, problem::State start,
+             const std::optional<Restart>& restart = {});
 
   [[nodiscard]] const problem::State& state() const override { return state_; }
   [[nodiscard]] std::optional<problem::EnergyParts> energy() const override;
@@ -31,6 +34,7 @@ class IdaStepper final : public Stepper {
  private:
   struct Callbacks;
 
+  void go_on_from_start(const Restart& restart);
   void find_initial_rates();
   [[nodiscard]] double resting_rate() const;
   void restart();

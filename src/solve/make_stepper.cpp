@@ -45,4 +45,16 @@ std::unique_ptr<Stepper> make_stepper(const SolverOptions& options, const model:
   return std::make_unique<IdaStepper>(options, model, std::move(start));
 }
 
+std::unique_ptr<Stepper> restart_stepper(const SolverOptions& options, const model::Model& model,
+                                         problem::State start, const Restart& restart) {
+  check(options);
+  if (options.method != Method::ida || options.scheme != Scheme::paper) {
+    throw ConfigError(fmt::format(
+        "solver.method = {}, solver.scheme = {}: a run goes on from a given state only with ida "
+        "and paper",
+        name_of(options.method), name_of(options.scheme)));
+  }
+  return std::make_unique<IdaStepper>(options, model, std::move(start), restart);
+}
+
 }  // namespace vesica::solve

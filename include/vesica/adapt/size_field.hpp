@@ -54,6 +54,11 @@ struct PhaseInterface {
 /// 8 / sqrt(3) int 1 / L^2; local_remesh comes within 25 %.
 [[nodiscard]] double wanted_nodes(const mesh::Surface& surface, const Eigen::VectorXd& sizes);
 
+/// Largest quotient of the distance between two corners of a triangle and the mean of the sizes
+/// there; local_remesh leaves about 1.4.
+[[nodiscard]] double longest_relative_edge(const mesh::Surface& surface,
+                                           const Eigen::VectorXd& sizes);
+
 /// The sizes, all enlarged by the one factor with which at most `max_nodes` nodes are wanted.
 [[nodiscard]] Eigen::VectorXd limited_sizes(const mesh::Surface& surface, Eigen::VectorXd sizes,
                                             double max_nodes);

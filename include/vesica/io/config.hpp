@@ -14,6 +14,7 @@
 #include "vesica/model/material.hpp"
 #include "vesica/problem/initial_phase.hpp"
 #include "vesica/relax/damping_controller.hpp"
+#include "vesica/relax/mesh_controller.hpp"
 #include "vesica/relax/stationarity.hpp"
 #include "vesica/solve/solver_options.hpp"
 
@@ -32,17 +33,6 @@ struct OutputOptions {
                 Rule::at_least_one},
           self.every_steps);
     visit(Field{"paraview", "-", "write trajectory.xdmf, which ParaView opens"}, self.paraview);
-  }
-};
-
-/// Changes of the mesh during a run. Not available in this version: `enabled = true` is refused.
-struct AdaptionOptions {
-  bool enabled = false;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor&& visit) {
-    visit(Field{"enabled", "-", "adapt the mesh during the run; not available in this version"},
-          self.enabled);
   }
 };
 
@@ -68,7 +58,7 @@ struct RunConfig {
   solve::SolverOptions solver;
   relax::DampingOptions damping;
   relax::StopOptions stop;
-  AdaptionOptions adaption;
+  relax::AdaptionOptions adaption;
   OutputOptions output;
 
   template <class Self, class Visitor>

@@ -25,6 +25,8 @@ class TrajectoryWriter final : public relax::Observer {
   /// A row of the time series; a frame for step 0 and every `output.every_steps` steps. Throws
   /// IoError, after which nothing more is written.
   void observe(const relax::StepView& view) override;
+  /// A frame on the new mesh, which adds its connectivity. Throws IoError.
+  void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) override;
   /// The final frame, the outcome, and the names of a finished run. Throws IoError.
   void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
 

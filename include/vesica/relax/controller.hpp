@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "vesica/adapt/size_field.hpp"
 #include "vesica/relax/observer.hpp"
 
 namespace vesica::relax {
@@ -20,8 +21,15 @@ struct Stop {
   int signal = 0;
 };
 
+/// A new mesh of the surface, with elements of these sizes and about `max_nodes` nodes at most.
+struct Remesh {
+  adapt::SizeFieldOptions sizes;
+  double max_nodes = 0;
+  std::string reason;  ///< what follows "because" in the log
+};
+
 /// An event between steps. relax() alone carries requests out.
-using Request = std::variant<SetDamping, Stop>;
+using Request = std::variant<SetDamping, Stop, Remesh>;
 
 /// Looks at the run after every accepted step and may ask for something. Derive from it to steer a
 /// run.
@@ -34,6 +42,19 @@ class Controller {
 
   /// Requests are carried out in order, before the next step; empty: go on.
   [[nodiscard]] virtual std::vector<Request> respond(const StepView& view) = 0;
+
+  /// When a step has failed; `view` is the last good state. Only Remesh counts: the run goes on
+  /// from there.
+  [[nodiscard]] virtual std::vector<Request> respond_to_failure(const StepView& view) {
+    (void)view;
+    return {};
+  }
+
+  /// When the run is about to end in an equilibrium. Only Remesh counts: the run goes on.
+  [[nodiscard]] virtual std::vector<Request> respond_to_rest(const StepView& view) {
+    (void)view;
+    return {};
+  }
 };
 
 }  // namespace vesica::relax

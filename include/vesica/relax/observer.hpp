@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/state.hpp"
 #include "vesica/solve/stepper.hpp"
@@ -11,6 +14,17 @@ struct StepView {
   const problem::State& state;
   const solve::StepReport& report;
   const problem::Diagnostics& diagnostics;
+};
+
+/// A change of the mesh between two steps.
+struct MeshChange {
+  long step = 0;
+  double time = 0;  ///< [time]
+  mesh::NodeIndex nodes_before = 0;
+  mesh::NodeIndex nodes_after = 0;
+  double quality_before = 0;
+  double quality_after = 0;
+  std::string reason;  ///< what follows "because"
 };
 
 /// Why a run ended. The numbers are not the exit status; `exit_status` in io/verdict.hpp maps them.
@@ -33,6 +47,7 @@ struct Outcome {
   solve::StepReport report;
   double smallest_quality = 0;  ///< smallest mesh quality over the run
   double initial_quality = 0;
+  std::vector<MeshChange> mesh_changes;
 };
 
 /// Watches a run; changes nothing. Derive from it to record or draw.
@@ -45,6 +60,11 @@ class Observer {
 
   /// After every accepted step; step 0 is the start.
   virtual void observe(const StepView& view) = 0;
+  /// After a change of the mesh, with the state on the new one.
+  virtual void mesh_changed(const StepView& view, const MeshChange& change) {
+    (void)view;
+    (void)change;
+  }
   /// Once, after the last step, with the final state. Also after a failure.
   virtual void finish(const StepView& view, const Outcome& outcome) {
     (void)view;

@@ -68,6 +68,8 @@ class Stationarity {
 
   /// To be called once a step: whether velocity and multipliers are at rest.
   [[nodiscard]] bool is_at_rest(const StepView& view);
+  /// After a change of the mesh: the multipliers have to rest anew.
+  void forget_steps();
   /// Velocity, or for a method that reports it the distance to the minimum.
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
   [[nodiscard]] bool meets_constraints(const problem::Diagnostics& diagnostics) const;

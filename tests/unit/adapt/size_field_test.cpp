@@ -7,6 +7,7 @@
 
 #include "nodal_shape_operators.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/mesh/quality.hpp"
 #include "vesica/mesh/shapes.hpp"
 
 namespace vesica::adapt {
@@ -98,6 +99,16 @@ TEST(LimitedSizes, KeepToTheLargestNumberOfNodes) {
   const Eigen::VectorXd limited = limited_sizes(surface, sizes, 1000);
   EXPECT_NEAR(wanted_nodes(surface, limited), 1000, 1e-9);
   EXPECT_EQ(limited_sizes(surface, sizes, 1e6), sizes);
+}
+
+TEST(LongestRelativeEdge, IsMeasuredInTheMeanSizeAtItsEnds) {
+  const mesh::Surface surface = sphere(1);
+  const double longest = mesh::longest_edge(*surface.triangulation, surface.positions);
+  Eigen::VectorXd sizes = Eigen::VectorXd::Constant(42, 0.5);
+  EXPECT_DOUBLE_EQ(longest_relative_edge(surface, sizes), longest / 0.5);
+  const mesh::NodeIndex corner = surface.triangulation->triangles().front()[0];
+  sizes[corner] = 0.1;  // the edges of the icosahedron are equally long
+  EXPECT_NEAR(longest_relative_edge(surface, sizes), longest / 0.3, 1e-9);
 }
 
 TEST(SizeField, RefusesArraysOfTheWrongLength) {

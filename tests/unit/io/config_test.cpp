@@ -139,9 +139,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"[phase]\ndirections = [[1, 0]]",
                  "case.toml:2:14: phase.directions = [ [ 1, 0 ] ]: must be an array of arrays of 3 "
                  "numbers"},
-        BadInput{"[adaption]\nenabled = true",
-                 "case.toml:2:11: adaption.enabled = true: mesh adaption is not available in this "
-                 "version"},
+        BadInput{"[adaption]\nenabled = true\n[solver]\nmethod = 'minimize'",
+                 "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\" and "
+                 "solver.scheme = \"paper\", not \"minimize\" and \"paper\""},
+        BadInput{"[adaption]\nenabled = true\n[solver]\nscheme = 'variational'",
+                 "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\" and "
+                 "solver.scheme = \"paper\", not \"ida\" and \"variational\""},
+        BadInput{"[adaption]\nmax_nodes = 0",
+                 "case.toml:2:13: adaption.max_nodes = 0: must be >= 1"},
         BadInput{"stop = 3", "case.toml:1:8: stop = 3: must be a table"}));
 
 TEST(Config, MalformedTomlIsRefusedWithItsPlace) {

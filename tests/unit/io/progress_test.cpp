@@ -1,8 +1,10 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "fake_run.hpp"
 #include "vesica/io/progress.hpp"
@@ -44,6 +46,28 @@ TEST(Progress, ALineOfAMinimisationTellsEvaluationsAndTheDistanceToTheMinimum) {
   const std::string line = progress_line({state, report, measured});
   EXPECT_TRUE(line.starts_with("step 12  evaluations 71  F ")) << line;
   EXPECT_NE(line.find("  distance 3.2e-04  C "), std::string::npos) << line;
+}
+
+relax::MeshChange fake_change() {
+  return {12, 0.25, 1774, 9390, 0.28, 0.61, "the quality fell to 0.28"};
+}
+
+constexpr const char* change_12 =
+    "step 12  remeshed: 1774 -> 9390 nodes, quality 0.28 -> 0.61, because the quality fell to 0.28";
+
+TEST(Progress, AChangeOfTheMeshHasALineOfItsOwn) {
+  EXPECT_EQ(mesh_change_line(fake_change()), change_12);
+  const problem::State state = fake_state();
+  const problem::Diagnostics measured = fake_diagnostics();
+  const solve::StepReport report = fake_report(12);
+  for (const auto& [style, text] :
+       {std::pair{ProgressStyle::sparse, fmt::format("{}\n", change_12)},
+        std::pair{ProgressStyle::rewriting, fmt::format("\r{}\x1b[K\n", change_12)},
+        std::pair{ProgressStyle::none, std::string()}}) {
+    std::ostringstream out;
+    Progress(out, style).mesh_changed({state, report, measured}, fake_change());
+    EXPECT_EQ(out.str(), text);
+  }
 }
 
 TEST(Progress, ATerminalHasOneLineThatIsRewritten) {

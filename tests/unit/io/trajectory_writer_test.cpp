@@ -195,6 +195,24 @@ TEST(TrajectoryWriter, ANewConnectivityGetsItsOwnMesh) {
             "/meshes/000001");
 }
 
+TEST(TrajectoryWriter, AChangeOfTheMeshGetsAFrameAndItsReason) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  run.state.triangulation = octahedron().triangulation;
+  run.state.values.positions *= 1.5;
+  run.report = fake_report(3);
+  writer.mesh_changed({run.state, run.report, run.measured},
+                      {3, 0.25, 18, 18, 0.25, 0.5, "the test asks"});
+  run.finish(writer);
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  EXPECT_EQ(file.text_attribute("/frames/000001", "mesh"), "/meshes/000001");
+  EXPECT_EQ(file.numbers("/frames/000001/positions")[4], 1.5);
+  EXPECT_EQ(file.text_attribute("/meshes/000001", "reason"), "the test asks");
+  EXPECT_EQ(file.numbers("/series/step").size(), 1U);  // a row is a step
+}
+
 TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
   const TemporaryFolder folder;
   FakeRun run;

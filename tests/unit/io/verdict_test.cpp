@@ -49,6 +49,12 @@ TEST(Verdict, JsonHoldsTheNumbersAndNullForWhatIsAbsent) {
   EXPECT_TRUE(json.ends_with("\n  }\n}\n")) << json;
 }
 
+TEST(Verdict, CountsTheChangesOfTheMesh) {
+  Verdict verdict = fake_verdict(RunStatus::converged);
+  verdict.outcome.mesh_changes.resize(3);
+  EXPECT_NE(to_json(verdict).find("\"remeshings\": 3"), std::string::npos) << to_json(verdict);
+}
+
 TEST(Verdict, StatusHasTheNamesOfTheInterface) {
   EXPECT_EQ(status_name(RunStatus::converged), "converged");
   EXPECT_EQ(status_name(RunStatus::end_time), "time limit");

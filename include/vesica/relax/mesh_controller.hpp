@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/problem/scales.hpp"
+#include "vesica/relax/controller.hpp"
+
+namespace vesica::relax {
+
+/// Changes of the mesh during a run; sizes as in adapt::SizeFieldOptions.
+struct AdaptionOptions {
+  bool enabled = false;
+  double curvature_angle = 0.4;
+  double interface_size = 0.85;
+  double final_curvature_angle = 0.2;
+  double final_interface_size = 0.6;
+  double max_size = 0.3;
+  int max_nodes = 20000;
+  int min_steps = 8;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"enabled", "-",
+                "new meshes where the surface needs them; method ida with scheme paper only"},
+          self.enabled);
+    visit(Field{"curvature_angle", "rad", "edge times curvature while the vesicle moves",
+                Rule::positive},
+          self.curvature_angle);
+    visit(Field{"interface_size", "-",
+                "edge in the phase interface over interface_width while the vesicle moves",
+                Rule::positive},
+          self.interface_size);
+    visit(Field{"final_curvature_angle", "rad", "edge times curvature near the equilibrium",
+                Rule::positive},
+          self.final_curvature_angle);
+    visit(Field{"final_interface_size", "-",
+                "edge in the phase interface over interface_width near the equilibrium",
+                Rule::positive},
+          self.final_interface_size);
+    visit(Field{"max_size", "R_c", "longest edge of an element", Rule::positive}, self.max_size);
+    visit(Field{"max_nodes", "-", "elements are enlarged to stay near this number of nodes",
+                Rule::at_least_one},
+          self.max_nodes);
+    visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
+                Rule::at_least_one},
+          self.min_steps);
+  }
+};
+
+/// Asks for a new mesh when the present one no longer fits. With L the wanted size of edges, coarse
+/// while the vesicle moves and fine near the equilibrium, at least min_steps after the last change:
+///
+///     quality (3.5) below 0.3 and below 0.75 of what it was after the last change
+///     an edge longer than 1.9 L
+///     fewer than 0.55 of the nodes are wanted
+///     once, normal velocity without rigid motion below 0.03 (natural units): the fine mesh
+///
+/// without waiting: an edge longer than 2.2 L; after failed steps, 5 times at most; and before the
+/// run ends in an equilibrium: the fine mesh if there is none yet, or, 3 times at most, an edge
+/// longer than 1.7 L.
+class MeshController final : public Controller {
+ public:
+  /// `scales` of the case give the units of max_size and of the velocity.
+  MeshController(const AdaptionOptions& options, model::Model model, const problem::Scales& scales);
+  [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
+  [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;
+  [[nodiscard]] std::vector<Request> respond_to_rest(const StepView& view) override;
+
+ private:
+  [[nodiscard]] Remesh request(std::string reason) const;
+  [[nodiscard]] std::vector<Request> ask(const StepView& view, std::string reason);
+  [[nodiscard]] double longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const;
+  [[nodiscard]] std::optional<std::string> misfit(const StepView& view) const;
+  [[nodiscard]] bool is_near_rest(const StepView& view) const;
+
+  AdaptionOptions options_;
+  model::Model model_;
+  problem::Scales scales_;
+  bool is_final_ = false;
+  long last_change_ = 0;               // step
+  std::optional<double> new_quality_;  // after the last change; absent until it is seen
+  int changes_after_failures_ = 0;
+  int changes_at_rest_ = 0;
+};
+
+}  // namespace vesica::relax

@@ -1,0 +1,103 @@
+#include "vesica/relax/mesh_controller.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "vesica/adapt/size_field.hpp"
+#include "vesica/relax/remesh.hpp"
+
+namespace vesica::relax {
+namespace {
+
+// Measured over the cases of Section 4: fewest changes with which all of them come to rest.
+constexpr double low_quality = 0.3;
+constexpr double lost_quality = 0.75;
+constexpr double long_edge = 1.9;
+constexpr double long_edge_at_rest = 1.7;
+constexpr double emergency_edge = 2.2;
+constexpr double surplus_nodes = 0.55;
+constexpr double slow = 0.03;
+constexpr int max_changes_after_failures = 5;
+constexpr int max_changes_at_rest = 3;
+
+}  // namespace
+
+MeshController::MeshController(const AdaptionOptions& options, model::Model model,
+                               const problem::Scales& scales)
+    : options_(options), model_(std::move(model)), scales_(scales) {}
+
+std::vector<Request> MeshController::respond(const StepView& view) {
+  if (!new_quality_) new_quality_ = view.diagnostics.quality;
+  if (view.report.counts.steps == 0) return {};
+  if (auto reason = misfit(view)) return ask(view, std::move(*reason));
+  if (is_final_ || view.report.counts.steps - last_change_ < options_.min_steps ||
+      !is_near_rest(view)) {
+    return {};
+  }
+  is_final_ = true;
+  return ask(view, "the vesicle is near its equilibrium");
+}
+
+std::vector<Request> MeshController::respond_to_failure(const StepView& view) {
+  if (changes_after_failures_ == max_changes_after_failures) return {};
+  ++changes_after_failures_;
+  return ask(view, "a step failed");
+}
+
+std::vector<Request> MeshController::respond_to_rest(const StepView& view) {
+  if (!is_final_) {
+    is_final_ = true;
+    return ask(view, "the vesicle is in equilibrium");
+  }
+  const double edge = longest_edge(view, wanted_sizes(model_, view.state, request({})));
+  if (edge <= long_edge_at_rest || changes_at_rest_ == max_changes_at_rest) return {};
+  ++changes_at_rest_;
+  return ask(view, fmt::format("an edge is {:.2f} of its size at the equilibrium", edge));
+}
+
+Remesh MeshController::request(std::string reason) const {
+  Remesh remesh;
+  remesh.sizes.max_size = options_.max_size * scales_.length;
+  remesh.sizes.curvature_angle =
+      is_final_ ? options_.final_curvature_angle : options_.curvature_angle;
+  remesh.sizes.interface_size = is_final_ ? options_.final_interface_size : options_.interface_size;
+  remesh.max_nodes = options_.max_nodes;
+  remesh.reason = std::move(reason);
+  return remesh;
+}
+
+std::vector<Request> MeshController::ask(const StepView& view, std::string reason) {
+  last_change_ = view.report.counts.steps;
+  new_quality_.reset();
+  return {request(std::move(reason))};
+}
+
+double MeshController::longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const {
+  return adapt::longest_relative_edge({view.state.triangulation, view.state.values.positions},
+                                      sizes);
+}
+
+/// Why the mesh does not fit the surface.
+std::optional<std::string> MeshController::misfit(const StepView& view) const {
+  const Eigen::VectorXd sizes = wanted_sizes(model_, view.state, request({}));
+  const double edge = longest_edge(view, sizes);
+  if (edge > emergency_edge) return fmt::format("an edge is {:.2f} of its size", edge);
+  if (view.report.counts.steps - last_change_ < options_.min_steps) return std::nullopt;
+  const double quality = view.diagnostics.quality;
+  if (quality < low_quality && quality < lost_quality * *new_quality_)
+    return fmt::format("the quality fell to {:.2f}", quality);
+  if (edge > long_edge) return fmt::format("an edge is {:.2f} of its size", edge);
+  const mesh::Surface surface{view.state.triangulation, view.state.values.positions};
+  const double wanted = adapt::wanted_nodes(surface, sizes);
+  if (wanted < surplus_nodes * surface.triangulation->num_nodes())
+    return fmt::format("{:.0f} nodes are enough", wanted);
+  return std::nullopt;
+}
+
+bool MeshController::is_near_rest(const StepView& view) const {
+  const double unit = scales_.length * scales_.length / scales_.time();
+  return view.diagnostics.velocity.normal_rigid_free < slow * unit;
+}
+
+}  // namespace vesica::relax

@@ -1,0 +1,92 @@
+#include "vesica/relax/remesh.hpp"
+
+#include <utility>
+
+#include "vesica/adapt/local_remesh.hpp"
+#include "vesica/adapt/transfer.hpp"
+#include "vesica/fem/node_graph.hpp"
+#include "vesica/fem/recovery.hpp"
+#include "vesica/mesh/quality.hpp"
+#include "vesica/model/two_phase.hpp"
+#include "vesica/problem/diagnostics.hpp"
+
+namespace vesica::relax {
+namespace {
+
+constexpr double smallest_quality = 0.1;        // of a new mesh, 0.5 as a rule
+constexpr double smallest_normal_cosine = 0.0;  // of a new mesh: neighbours form no fold
+
+bool is_usable(const mesh::Surface& surface) {
+  return mesh::quality(*surface.triangulation, surface.positions) > smallest_quality &&
+         mesh::smallest_normal_cosine(*surface.triangulation, surface.positions) >
+             smallest_normal_cosine;
+}
+
+/// Nodal fields at the new nodes; multipliers as they are.
+problem::Fields carried_over(const mesh::Triangulation& old,
+                             const std::vector<mesh::SurfaceLocation>& origins,
+                             const problem::Fields& fields) {
+  problem::Fields result;
+  result.positions = mesh::interpolate(old, origins, fields.positions);
+  result.mean_curvature = mesh::interpolate(old, origins, fields.mean_curvature);
+  if (fields.order_parameter.size() > 0)
+    result.order_parameter = mesh::interpolate(old, origins, fields.order_parameter);
+  result.multipliers = fields.multipliers;
+  return result;
+}
+
+/// V, A and, with two phases, int h(c).
+Eigen::VectorXd integrals_of(const problem::State& state) {
+  const auto measured = problem::measure({{}, state.is_two_phase(), {}}, state);
+  Eigen::VectorXd integrals(state.is_two_phase() ? 3 : 2);
+  integrals.head<2>() << measured.volume, measured.area;
+  if (state.is_two_phase()) integrals[2] = *measured.phase_difference;
+  return integrals;
+}
+
+void restore(problem::State& state, const Eigen::VectorXd& targets) {
+  const Eigen::VectorXd phase_derivative = state.values.order_parameter.unaryExpr(
+      [](double c) { return model::phase_indicator_derivative(c); });
+  const auto directions = adapt::restoring_directions(
+      {state.triangulation, state.values.positions}, state.values.mean_curvature, phase_derivative);
+  problem::State trial = state;
+  const auto integrals = [&trial](const adapt::RestorableFields& fields) {
+    trial.values.positions = fields.positions;
+    trial.values.order_parameter = fields.order_parameter;
+    return integrals_of(trial);
+  };
+  auto restored = adapt::restore_integrals(integrals, targets, directions,
+                                           {state.values.positions, state.values.order_parameter});
+  state.values.positions = std::move(restored.fields.positions);
+  state.values.order_parameter = std::move(restored.fields.order_parameter);
+}
+
+}  // namespace
+
+Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
+                             const Remesh& remesh) {
+  const mesh::Surface surface{state.triangulation, state.values.positions};
+  const fem::NodeGraph graph(*state.triangulation);
+  const auto shape_operator =
+      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
+  const adapt::PhaseInterface phases{state.values.order_parameter, model.material.interface_width};
+  return adapt::limited_sizes(
+      surface, adapt::size_field(surface, shape_operator, phases, remesh.sizes), remesh.max_nodes);
+}
+
+std::optional<problem::State> remeshed(const model::Model& model, const problem::State& state,
+                                       const Remesh& remesh) {
+  const adapt::Remeshed changed = adapt::local_remesh({state.triangulation, state.values.positions},
+                                                      wanted_sizes(model, state, remesh));
+  if (!is_usable(changed.surface)) return std::nullopt;
+  problem::State result;
+  result.time = state.time;
+  result.damping = state.damping;
+  result.triangulation = changed.surface.triangulation;
+  result.values = carried_over(*state.triangulation, changed.origins, state.values);
+  result.rates = carried_over(*state.triangulation, changed.origins, state.rates);
+  restore(result, integrals_of(state));
+  return result;
+}
+
+}  // namespace vesica::relax

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "relaxation_cases.hpp"
+#include "vesica/io/case.hpp"
+#include "vesica/io/config.hpp"
+#include "vesica/relax/mesh_controller.hpp"
+
+namespace vesica {
+namespace {
+
+/// Relaxes a case of apps/cases with [adaption] and other options on top.
+test::RelaxationResult run_adaptively(const std::string& name, std::vector<std::string> overrides) {
+  overrides.emplace_back("adaption.enabled=true");
+  const auto config =
+      io::read_config(std::string(VESICA_CASES_DIR) + "/" + name + ".toml", overrides);
+  const auto vesicle = io::make_case(config);
+  const auto scales = problem::scales_of(vesicle.model, vesicle.start);
+  auto stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
+  relax::DampingController damping(config.damping, scales);
+  relax::MeshController mesh(config.adaption, vesicle.model, scales);
+  const std::array<relax::Controller*, 2> controllers{&damping, &mesh};
+  const auto restart = [&](problem::State start, const solve::Restart& how) {
+    return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
+  };
+  auto outcome = relax::relax(stepper, restart, vesicle.model, config.stop, {}, controllers);
+  return {std::move(outcome), stepper->state()};
+}
+
+/// Axisymmetric solution (reference/axisymmetric.csv), and how near a run has to come.
+struct Reference {
+  double energy;
+  double volume_multiplier;
+  double energy_tolerance;
+  double multiplier_tolerance;
+};
+
+void expect_reference(const test::RelaxationResult& result, const Reference& reference) {
+  EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_NEAR(result.energy(), reference.energy, reference.energy_tolerance);
+  EXPECT_NEAR(result.volume_multiplier(), reference.volume_multiplier,
+              reference.multiplier_tolerance);
+  EXPECT_GT(result.outcome.diagnostics.quality, 0.3);
+  EXPECT_GE(result.outcome.mesh_changes.size(), 1U);
+  const auto& errors = result.outcome.diagnostics.constraint_errors;
+  for (const auto& error : {errors.volume, errors.area, errors.phase})
+    EXPECT_LT(std::abs(error.value_or(0)), 1e-10);
+}
+
+TEST(SlowAdaption, ReachesTable1) {
+  expect_reference(run_adaptively("cigar_dumbbell", {}),
+                   {test::table_1_energy, test::table_1_volume_multiplier, 8e-4, 2e-3});
+}
+
+TEST(SlowAdaption, ReachesHighLineTension) {
+  const double energy = 116.842137;
+  const double multiplier = -124.295708;
+  expect_reference(run_adaptively("line_tension", {"shape.resolution=5"}),
+                   {energy, multiplier, 2e-5 * energy, 2e-4 * -multiplier});
+}
+
+TEST(SlowAdaption, ReachesAThinNeck) {
+  const double energy = 56.579056;
+  const double multiplier = 18.933753;
+  expect_reference(run_adaptively("neck", {}),
+                   {energy, multiplier, 2e-5 * energy, 2e-4 * multiplier});
+}
+
+}  // namespace
+}  // namespace vesica

@@ -1,0 +1,147 @@
+#include "vesica/relax/mesh_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "relaxation_cases.hpp"
+#include "vesica/relax/remesh.hpp"
+
+namespace vesica::relax {
+namespace {
+
+/// A single-phase unit sphere whose longest edge is a chosen multiple of its wanted size; all else
+/// that a controller looks at is made up.
+class MeshControllerTest : public ::testing::Test {
+ protected:
+  MeshControllerTest() {
+    model_.is_two_phase = false;
+    state_ = test::start_on(test::make_sphere(2));
+    diagnostics_.quality = 0.5;
+    diagnostics_.velocity.normal_rigid_free = 1;
+    options_.max_size = 100;
+    options_.max_nodes = 1000000;
+    set_relative_edge(1);
+    options_.final_curvature_angle = options_.curvature_angle;
+  }
+
+  /// Sizes on a sphere are proportional to the angle.
+  void set_relative_edge(double ratio) { options_.curvature_angle = edge_for_unit_angle() / ratio; }
+
+  [[nodiscard]] double edge_for_unit_angle() const {
+    Remesh unit;
+    unit.sizes.curvature_angle = 1;
+    unit.sizes.max_size = 100;
+    unit.max_nodes = 1e9;
+    return adapt::longest_relative_edge({state_.triangulation, state_.values.positions},
+                                        wanted_sizes(model_, state_, unit));
+  }
+
+  StepView view_at(long step) {
+    report_.counts.steps = step;
+    return {state_, report_, diagnostics_};
+  }
+
+  /// First step at which a controller asks for a mesh, of those up to 20.
+  std::optional<long> first_request() {
+    MeshController controller(options_, model_, scales_);
+    for (long step = 0; step <= 20; ++step) {
+      if (!controller.respond(view_at(step)).empty()) return step;
+    }
+    return std::nullopt;
+  }
+
+  AdaptionOptions options_;
+  model::Model model_;
+  problem::Scales scales_;
+  problem::State state_;
+  solve::StepReport report_;
+  problem::Diagnostics diagnostics_;
+};
+
+TEST_F(MeshControllerTest, LeavesAMeshThatFitsAlone) { EXPECT_EQ(first_request(), std::nullopt); }
+
+TEST_F(MeshControllerTest, ChangesLongEdgesAfterEightSteps) {
+  set_relative_edge(1.95);
+  EXPECT_EQ(first_request(), 8);
+  set_relative_edge(1.85);
+  EXPECT_EQ(first_request(), std::nullopt);
+}
+
+TEST_F(MeshControllerTest, DoesNotWaitWithMuchTooLongEdges) {
+  set_relative_edge(2.25);
+  EXPECT_EQ(first_request(), 1);
+}
+
+TEST_F(MeshControllerTest, ChangesAMeshWithFarTooManyNodes) {
+  set_relative_edge(0.65);  // 0.42 of the nodes
+  EXPECT_EQ(first_request(), 8);
+  set_relative_edge(0.9);
+  EXPECT_EQ(first_request(), std::nullopt);
+}
+
+TEST_F(MeshControllerTest, ChangesAMeshWhoseQualityFell) {
+  MeshController controller(options_, model_, scales_);
+  EXPECT_TRUE(controller.respond(view_at(0)).empty());
+  diagnostics_.quality = 0.31;
+  EXPECT_TRUE(controller.respond(view_at(9)).empty());
+  diagnostics_.quality = 0.29;
+  EXPECT_EQ(controller.respond(view_at(10)).size(), 1U);
+}
+
+TEST_F(MeshControllerTest, AcceptsALowQualityThatWasThereFromTheStart) {
+  diagnostics_.quality = 0.35;
+  MeshController controller(options_, model_, scales_);
+  EXPECT_TRUE(controller.respond(view_at(0)).empty());
+  diagnostics_.quality = 0.28;  // more than 0.75 * 0.35
+  EXPECT_TRUE(controller.respond(view_at(9)).empty());
+}
+
+TEST_F(MeshControllerTest, WaitsAgainAfterAChange) {
+  set_relative_edge(2);
+  MeshController controller(options_, model_, scales_);
+  for (long step = 0; step <= 30; ++step)
+    EXPECT_EQ(controller.respond(view_at(step)).empty(), step == 0 || step % 8 != 0) << step;
+}
+
+TEST_F(MeshControllerTest, AsksOnceForTheFineMeshNearTheEquilibrium) {
+  scales_ = {2, 3};  // unit of the velocity: energy / length^2
+  options_.max_size = 50;
+  options_.final_curvature_angle = 0.9 * options_.curvature_angle;
+  MeshController controller(options_, model_, scales_);
+  diagnostics_.velocity.normal_rigid_free = 0.031 * 0.75;
+  EXPECT_TRUE(controller.respond(view_at(9)).empty());
+  diagnostics_.velocity.normal_rigid_free = 0.029 * 0.75;
+  const auto requests = controller.respond(view_at(10));
+  ASSERT_EQ(requests.size(), 1U);
+  const auto& remesh = std::get<Remesh>(requests.front());
+  EXPECT_EQ(remesh.sizes.curvature_angle, options_.final_curvature_angle);
+  EXPECT_EQ(remesh.sizes.interface_size, options_.final_interface_size);
+  EXPECT_EQ(remesh.sizes.max_size, 100);
+  EXPECT_TRUE(controller.respond(view_at(30)).empty());
+}
+
+TEST_F(MeshControllerTest, DoesNotEndOnACoarseMesh) {
+  MeshController controller(options_, model_, scales_);
+  EXPECT_EQ(controller.respond_to_rest(view_at(3)).size(), 1U);
+  EXPECT_TRUE(controller.respond_to_rest(view_at(6)).empty());
+}
+
+TEST_F(MeshControllerTest, DoesNotEndOnLongEdgesUnlessTheyStay) {
+  set_relative_edge(1.75);
+  options_.final_curvature_angle = options_.curvature_angle;
+  MeshController controller(options_, model_, scales_);
+  for (int change = 0; change < 4; ++change)  // the fine mesh, then three more
+    EXPECT_EQ(controller.respond_to_rest(view_at(3)).size(), 1U);
+  EXPECT_TRUE(controller.respond_to_rest(view_at(6)).empty());
+}
+
+TEST_F(MeshControllerTest, GivesUpAfterFiveFailures) {
+  MeshController controller(options_, model_, scales_);
+  for (int failure = 0; failure < 5; ++failure)
+    EXPECT_EQ(controller.respond_to_failure(view_at(3)).size(), 1U);
+  EXPECT_TRUE(controller.respond_to_failure(view_at(3)).empty());
+}
+
+}  // namespace
+}  // namespace vesica::relax

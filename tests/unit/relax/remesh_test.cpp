@@ -1,0 +1,167 @@
+#include "vesica/relax/remesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fake_stepper.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/problem/diagnostics.hpp"
+
+namespace vesica::relax {
+namespace {
+
+Remesh request() {
+  Remesh remesh;
+  remesh.max_nodes = 1e6;
+  remesh.reason = "the test asks";
+  return remesh;
+}
+
+/// An ellipsoid with phases whose fields are smooth functions of the place.
+test::RelaxationCase smooth_case() {
+  test::RelaxationCase result;
+  result.model.material.interface_width = 0.3;
+  result.start = test::start_on(test::make_ellipsoid({1.6, 0.7, 0.7}, 6));
+  auto& state = result.start;
+  const auto& x = state.values.positions;
+  state.values.order_parameter = (x.col(0).array() / 0.4).tanh().matrix();
+  state.values.mean_curvature = -2 - x.col(0).array().square();
+  state.values.multipliers = {27.0, -9.0, 1.5};
+  state.rates = state.values;
+  state.rates.positions = 0.1 * x;
+  state.rates.multipliers = {};
+  state.time = 0.25;
+  state.damping = 0.75;
+  return result;
+}
+
+TEST(Remesh, KeepsVolumeAreaAndPhaseDifference) {
+  const auto c = smooth_case();
+  const auto changed = remeshed(c.model, c.start, request());
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_NE(changed->triangulation->num_nodes(), c.start.triangulation->num_nodes());
+  const auto before = problem::measure(c.model, c.start);
+  const auto after = problem::measure(c.model, *changed);
+  EXPECT_NEAR(after.volume, before.volume, 1e-11);
+  EXPECT_NEAR(after.area, before.area, 1e-11);
+  EXPECT_NEAR(*after.phase_difference, *before.phase_difference, 1e-11);
+  EXPECT_GT(after.quality, 0.45);
+}
+
+TEST(Remesh, CarriesFieldsOverAndKeepsTheRest) {
+  const auto c = smooth_case();
+  const auto changed = remeshed(c.model, c.start, request());
+  ASSERT_TRUE(changed.has_value());
+  const auto& x = changed->values.positions;
+  const Eigen::VectorXd c_there = (x.col(0).array() / 0.4).tanh().matrix();
+  const Eigen::VectorXd kappa_there = -2 - x.col(0).array().square();
+  // Interpolation errors of quadratic elements of size 0.3.
+  EXPECT_LT((changed->values.order_parameter - c_there).cwiseAbs().maxCoeff(), 2e-2);
+  EXPECT_LT((changed->values.mean_curvature - kappa_there).cwiseAbs().maxCoeff(), 2e-2);
+  EXPECT_LT((changed->rates.positions - 0.1 * x).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_EQ(changed->values.multipliers.volume, 27.0);
+  EXPECT_EQ(changed->values.multipliers.phase, 1.5);
+  EXPECT_EQ(changed->time, 0.25);
+  EXPECT_EQ(changed->damping, 0.75);
+}
+
+TEST(Remesh, StaysNearTheLargestNumberOfNodes) {
+  const auto c = smooth_case();
+  auto fine = request();
+  fine.sizes.curvature_angle = 0.05;
+  fine.max_nodes = 1500;
+  const auto changed = remeshed(c.model, c.start, fine);
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_NEAR(changed->triangulation->num_nodes(), 1500, 375);
+}
+
+/// Asks for one new mesh after a step, when a step fails, or at the end.
+class OneRemesh final : public Controller {
+ public:
+  explicit OneRemesh(long step) : step_(step) {}
+  [[nodiscard]] std::vector<Request> respond(const StepView& view) override {
+    return view.report.counts.steps == step_ ? once() : std::vector<Request>{};
+  }
+  [[nodiscard]] std::vector<Request> respond_to_failure(const StepView&) override { return once(); }
+  [[nodiscard]] std::vector<Request> respond_to_rest(const StepView&) override { return once(); }
+
+ private:
+  [[nodiscard]] std::vector<Request> once() {
+    if (std::exchange(is_done_, true)) return {};
+    return {request()};
+  }
+
+  long step_;
+  bool is_done_ = false;
+};
+
+/// A run of fake steppers whose mesh changes once.
+class RunWithRemeshTest : public ::testing::Test {
+ protected:
+  Outcome run(long remesh_step, double speed, long failing_step = -1) {
+    auto first = std::make_unique<FakeStepper>([speed](long) { return speed; });
+    first->failing_step = failing_step;
+    std::unique_ptr<solve::Stepper> stepper = std::move(first);
+    const auto restart = [&](problem::State start, const solve::Restart& how) {
+      restarts_.push_back(how);
+      start_ = std::move(start);
+      return std::make_unique<FakeStepper>([speed](long) { return speed; });
+    };
+    OneRemesh controller(remesh_step);
+    const std::array<Controller*, 1> controllers{&controller};
+    return relax(stepper, restart, free_model(), stop_, {}, controllers);
+  }
+
+  StopOptions stop_;
+  std::vector<solve::Restart> restarts_;
+  problem::State start_;
+};
+
+TEST_F(RunWithRemeshTest, CountsStepsOfAllSteppers) {
+  stop_.max_steps = 10;
+  const Outcome outcome = run(4, 1);
+  EXPECT_EQ(outcome.status, RunStatus::step_limit);
+  EXPECT_EQ(outcome.report.counts.steps, 10);
+  ASSERT_EQ(outcome.mesh_changes.size(), 1U);
+  EXPECT_EQ(outcome.mesh_changes[0].step, 4);
+  EXPECT_EQ(outcome.mesh_changes[0].nodes_before, 42);
+  EXPECT_EQ(outcome.mesh_changes[0].nodes_after, start_.triangulation->num_nodes());
+  EXPECT_EQ(outcome.mesh_changes[0].reason, "the test asks");
+  ASSERT_EQ(restarts_.size(), 1U);
+  EXPECT_DOUBLE_EQ(restarts_[0].initial_step, 0.3);  // of a step of 1
+}
+
+TEST_F(RunWithRemeshTest, GoesOnAfterAFailedStep) {
+  stop_.max_steps = 10;
+  const Outcome outcome = run(-1, 1, 6);
+  EXPECT_EQ(outcome.status, RunStatus::step_limit);
+  EXPECT_EQ(outcome.report.counts.steps, 10);
+  ASSERT_EQ(outcome.mesh_changes.size(), 1U);
+  EXPECT_EQ(outcome.mesh_changes[0].step, 5);
+  EXPECT_DOUBLE_EQ(restarts_.at(0).initial_step, 0.03);
+}
+
+TEST_F(RunWithRemeshTest, RestsAnewAfterTheChangeAtTheEnd) {
+  const Outcome outcome = run(-1, 1e-9);
+  EXPECT_EQ(outcome.status, RunStatus::converged);
+  ASSERT_EQ(outcome.mesh_changes.size(), 1U);
+  // The multipliers have to be at rest in three steps on either mesh, after one to compare with.
+  EXPECT_EQ(outcome.mesh_changes[0].step, 4);
+  EXPECT_EQ(outcome.report.counts.steps, 8);
+}
+
+TEST(RelaxWithoutFactory, RefusesANewMesh) {
+  FakeStepper stepper([](long) { return 1.0; });
+  OneRemesh controller(2);
+  const std::array<Controller*, 1> controllers{&controller};
+  EXPECT_THROW(relax(stepper, free_model(), {}, {}, controllers), ConfigError);
+}
+
+}  // namespace
+}  // namespace vesica::relax
