@@ -32,18 +32,22 @@ Gap measure_gap(const test::RelaxationCase& start) {
           std::abs(flow.energy() - weak.energy())};
 }
 
-/// From 1154 to 4610 nodes. Measured: 9.2e-5, 2.1e-6, 2.3e-7 on one mesh, 4.3e-3 and 3.5e-4 as they
-/// end.
+/// 1154 and 2594 nodes. Measured: 9.2e-5 and 2.1e-6 on one mesh, 4.3e-3 and 1.0e-3 as they end.
 TEST(SchemeGap, OfTheDumbbellFallsAtOrderTwoAndAHalf) {
   const auto coarse = measure_gap(test::table_1_case(4));
-  const auto middle = measure_gap(test::table_1_case(6));
-  const auto fine = measure_gap(test::table_1_case(8));
+  const auto fine = measure_gap(test::table_1_case(6));
   EXPECT_GT(coarse.on_one_mesh, 1e-5);
-  EXPECT_GT(test::observed_order(coarse.on_one_mesh, middle.on_one_mesh, 1.5), 2.5);
-  EXPECT_GT(test::observed_order(middle.on_one_mesh, fine.on_one_mesh, 8.0 / 6), 2.5);
+  EXPECT_GT(test::observed_order(coarse.on_one_mesh, fine.on_one_mesh, 1.5), 2.5);
   EXPECT_GT(coarse.as_they_end, 1e-3);
-  EXPECT_GT(test::observed_order(coarse.as_they_end, middle.as_they_end, 1.5), 2.5);
-  EXPECT_GT(test::observed_order(middle.as_they_end, fine.as_they_end, 8.0 / 6), 2.5);
+  EXPECT_GT(test::observed_order(coarse.as_they_end, fine.as_they_end, 1.5), 2.5);
+}
+
+/// 2594 and 4610 nodes. Measured: 2.1e-6 and 2.3e-7 on one mesh, 1.0e-3 and 3.6e-4 as they end.
+TEST(SlowSchemeGap, OfTheDumbbellGoesOnFallingAtOrderTwoAndAHalf) {
+  const auto coarse = measure_gap(test::table_1_case(6));
+  const auto fine = measure_gap(test::table_1_case(8));
+  EXPECT_GT(test::observed_order(coarse.on_one_mesh, fine.on_one_mesh, 8.0 / 6), 2.5);
+  EXPECT_GT(test::observed_order(coarse.as_they_end, fine.as_they_end, 8.0 / 6), 2.5);
 }
 
 /// One phase, v = 0.8, 642 and 2562 nodes.
