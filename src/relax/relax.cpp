@@ -52,7 +52,8 @@ class Run {
     while (!end) {
       report_ = timed([&] { return stepper_.current->step(stop_.end_time); });
       if (report_.status == solve::StepStatus::failed) {
-        if (!go_on_after_failure()) end = Stop{RunStatus::numerical_failure, report_.reason};
+        if (!change_mesh_if_asked(&Controller::respond_to_failure, retry_step))
+          end = Stop{RunStatus::numerical_failure, report_.reason};
         continue;
       }
       step_size_ = report_.step_size;
@@ -110,28 +111,21 @@ class Run {
     }
     const bool is_changed = !end && remesh && change_mesh(*remesh, restart_step);
     if (!end && !is_changed && report_.counts.steps > 0 && stationarity_.is_at_rest(view()) &&
-        !change_mesh_at_rest()) {
+        !change_mesh_if_asked(&Controller::respond_to_rest, restart_step)) {
       end = try_to_finish();
     }
     if (!end) end = stationarity_.limit(view());
     return end;
   }
 
-  bool change_mesh_at_rest() {
-    for (auto* controller : controllers_) {
-      for (const auto& request : controller->respond_to_rest(view())) {
-        if (const auto* remesh = std::get_if<Remesh>(&request))
-          return change_mesh(*remesh, restart_step);
-      }
-    }
-    return false;
-  }
+  using Response = std::vector<Request> (Controller::*)(const StepView& view);
 
-  bool go_on_after_failure() {
+  /// Carries out the first Remesh that a controller answers with.
+  bool change_mesh_if_asked(Response response, double step_factor) {
     for (auto* controller : controllers_) {
-      for (const auto& request : controller->respond_to_failure(view())) {
+      for (const auto& request : (controller->*response)(view())) {
         if (const auto* remesh = std::get_if<Remesh>(&request))
-          return change_mesh(*remesh, retry_step);
+          return change_mesh(*remesh, step_factor);
       }
     }
     return false;
