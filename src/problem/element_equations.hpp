@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "constraint_kernel.hpp"
+#include "dual_inputs.hpp"
 #include "point_equations.hpp"
 #include "vesica/core/dual.hpp"
 #include "vesica/fem/block_assembly.hpp"
@@ -114,28 +115,20 @@ void add_element_residual(const EquationContext& context, const ElementValues& e
 using PointDual = Dual<24>;
 
 inline PointInputs<PointDual> dual_inputs(const PointInputs<double>& in) {
-  int next = 0;
-  const auto scalar = [&](double value) { return PointDual::input(value, next++); };
-  const auto vector = [&](const Vec3<double>& a) {
-    Vec3<PointDual> result;
-    result.x = scalar(a.x);
-    result.y = scalar(a.y);
-    result.z = scalar(a.z);
-    return result;
-  };
+  DualInputs<PointDual> inputs;
   PointInputs<PointDual> out;
-  out.x_u = vector(in.x_u);
-  out.x_v = vector(in.x_v);
-  out.x_uu = vector(in.x_uu);
-  out.x_uv = vector(in.x_uv);
-  out.x_vv = vector(in.x_vv);
-  out.kappa = scalar(in.kappa);
-  out.kappa_u = scalar(in.kappa_u);
-  out.kappa_v = scalar(in.kappa_v);
-  out.c = scalar(in.c);
-  out.c_u = scalar(in.c_u);
-  out.c_v = scalar(in.c_v);
-  out.velocity = vector(in.velocity);
+  out.x_u = inputs.vector(in.x_u);
+  out.x_v = inputs.vector(in.x_v);
+  out.x_uu = inputs.vector(in.x_uu);
+  out.x_uv = inputs.vector(in.x_uv);
+  out.x_vv = inputs.vector(in.x_vv);
+  out.kappa = inputs.scalar(in.kappa);
+  out.kappa_u = inputs.scalar(in.kappa_u);
+  out.kappa_v = inputs.scalar(in.kappa_v);
+  out.c = inputs.scalar(in.c);
+  out.c_u = inputs.scalar(in.c_u);
+  out.c_v = inputs.scalar(in.c_v);
+  out.velocity = inputs.vector(in.velocity);
   out.c_rate = in.c_rate;
   return out;
 }

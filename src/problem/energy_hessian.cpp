@@ -1,7 +1,7 @@
 #include <vector>
 
+#include "dual_inputs.hpp"
 #include "energy_element.hpp"
-#include "vesica/core/dual.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/fem/block_assembly.hpp"
 #include "vesica/problem/energy_problem.hpp"
@@ -17,23 +17,6 @@ constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 using EnergyDual = Dual<24>;
 /// s, x_u, x_v, x_uu, x_uv, x_vv.
 using GaussianDual = Dual<16>;
-
-/// Turns numbers into dual inputs, numbered in the order of the calls.
-template <class D>
-class Inputs {
- public:
-  D scalar(double value) { return D::input(value, next_++); }
-  Vec3<D> vector(const Vec3<double>& a) {
-    Vec3<D> result;
-    result.x = scalar(a.x);
-    result.y = scalar(a.y);
-    result.z = scalar(a.z);
-    return result;
-  }
-
- private:
-  int next_ = 0;
-};
 
 /// What the assembly of one element needs besides its fields. Unknowns of a node: p (0, 1, 2),
 /// displacement along its direction (3), c (4).
@@ -91,7 +74,7 @@ void add_energy_point(const ElementContext& context, const EnergyElement& elemen
                       const fem::QuadraturePoint& point, fem::ElementMatrix<Block>& matrix) {
   const auto& shape = point.shape;
   const auto values = energy_point(element, shape);
-  Inputs<EnergyDual> inputs;
+  DualInputs<EnergyDual> inputs;
   EnergyPoint<EnergyDual> in;
   in.x = inputs.vector(values.x);
   in.x_u = inputs.vector(values.x_u);
@@ -196,7 +179,7 @@ void add_gaussian_hessian(const ElementContext& context, const EnergyElement& el
   std::array<double, 6> by_weight = element.vertex_angle;
   for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
     const auto values = gaussian_point(element, s, shape);
-    Inputs<GaussianDual> inputs;
+    DualInputs<GaussianDual> inputs;
     GaussianPoint<GaussianDual> in;
     in.s = inputs.scalar(values.s);
     in.x_u = inputs.vector(values.x_u);
