@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "vesica/core/parallel.hpp"
+#include "vesica/fem/block_assembly.hpp"
 #include "vesica/fem/mass_matrix.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
@@ -18,15 +19,7 @@ constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 /// Adds up local vectors of three components a node, stored as (T, 6, 3).
 NodalTriple gather(const NodeGraph& graph, const std::vector<double>& local, int threads) {
   NodalTriple result(graph.num_nodes(), 3);
-  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
-    for (int node = begin; node < end; ++node) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        double sum = 0;
-        for (const auto code : graph.incidences(node)) sum += local[at(code) * 3 + k];
-        result(node, static_cast<Eigen::Index>(k)) = sum;
-      }
-    }
-  });
+  gather_nodal(graph, local, threads, result);
   return result;
 }
 

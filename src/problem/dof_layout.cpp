@@ -4,12 +4,8 @@ namespace vesica::problem {
 
 DofLayout::DofLayout(mesh::NodeIndex num_nodes, const model::Model& model)
     : num_nodes_(num_nodes), is_two_phase_(model.is_two_phase) {
-  const auto& targets = model.targets;
-  const std::array active{targets.volume.has_value(), targets.area.has_value(),
-                          is_two_phase_ && targets.phase_difference.has_value()};
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    if (active[i]) multipliers_[i] = num_multipliers_++;
-  }
+  for (const int place : model::active_constraints(model))
+    multipliers_[static_cast<std::size_t>(place)] = num_multipliers_++;
 }
 
 Eigen::VectorXd DofLayout::pack(const Fields& fields) const {
@@ -20,8 +16,7 @@ Eigen::VectorXd DofLayout::pack(const Fields& fields) const {
     flat[i * block + 3] = fields.mean_curvature[i];
     if (is_two_phase_) flat[i * block + 4] = fields.order_parameter[i];
   }
-  const std::array values{fields.multipliers.volume, fields.multipliers.area,
-                          fields.multipliers.phase};
+  const auto values = fields.multipliers.in_order();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (multipliers_[i] >= 0) flat[num_nodal() + multipliers_[i]] = values[i].value_or(0.0);
   }

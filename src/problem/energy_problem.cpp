@@ -9,6 +9,7 @@
 #include "vesica/core/dual.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"
+#include "vesica/fem/block_assembly.hpp"
 #include "vesica/fem/mass_matrix.hpp"
 #include "vesica/problem/normal_graph.hpp"
 
@@ -32,17 +33,9 @@ Eigen::VectorXd angles_per_element(const mesh::Triangulation& triangulation,
 
 /// Sums entries of shape (T, 6, count) over the elements of each node, shape (N, count).
 Eigen::MatrixXd gather(const fem::NodeGraph& graph, const std::vector<double>& local,
-                       std::size_t count, int threads) {
-  Eigen::MatrixXd result(graph.num_nodes(), static_cast<Eigen::Index>(count));
-  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
-    for (int node = begin; node < end; ++node) {
-      for (std::size_t k = 0; k < count; ++k) {
-        double sum = 0;
-        for (const auto code : graph.incidences(node)) sum += local[at(code) * count + k];
-        result(node, static_cast<Eigen::Index>(k)) = sum;
-      }
-    }
-  });
+                       Eigen::Index count, int threads) {
+  Eigen::MatrixXd result(graph.num_nodes(), count);
+  fem::gather_nodal(graph, local, threads, result);
   return result;
 }
 

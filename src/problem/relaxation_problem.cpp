@@ -35,10 +35,6 @@ PointSettings point_settings(const model::Model& model, const DofLayout& layout,
   return settings;
 }
 
-std::array<std::optional<model::Ramp>, 3> ramps(const model::Targets& targets) {
-  return {targets.volume, targets.area, targets.phase_difference};
-}
-
 void check_finite(const Eigen::VectorXd& values, const DofLayout& layout,
                   const mesh::Positions& positions, std::string_view what) {
   if (values.allFinite()) return;
@@ -126,17 +122,12 @@ Eigen::VectorXd RelaxationProblem::residual(const EquationSettings& settings, do
       }
     });
   });
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(layout_.size());
-  parallel_for(graph_.num_nodes(), threads_, [&](int begin, int end) {
-    for (int node = begin; node < end; ++node) {
-      for (const auto code : graph_.incidences(node)) {
-        for (std::size_t k = 0; k < block; ++k)
-          result[static_cast<Eigen::Index>(at(node) * block + k)] += local[at(code) * block + k];
-      }
-    }
-  });
+  Eigen::VectorXd result(layout_.size());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  fem::gather_nodal(graph_, local, threads_,
+                    Eigen::Map<Rows>(result.data(), layout_.num_nodes(), layout_.block_size()));
   const auto measured = constraints(y, y_rate);
-  const auto targets = ramps(model_.targets);
+  const auto targets = model_.targets.in_order();
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) < 0) continue;
     const auto& target = *targets[at(i)];

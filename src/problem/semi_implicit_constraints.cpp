@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-std::array<std::optional<model::Ramp>, 3> ramps(const model::Targets& targets) {
-  return {targets.volume, targets.area, targets.phase_difference};
-}
-
 ElementNodes<double> element_nodes(const Fields& fields, const mesh::QuadraticTriangle& triangle) {
   ElementNodes<double> nodes;
   const bool is_two_phase = fields.order_parameter.size() > 0;
@@ -92,7 +88,7 @@ std::array<double, model::num_constraints> SemiImplicitProblem::functionals(
 
 Eigen::VectorXd SemiImplicitProblem::constraint_errors(const Fields& fields, double time) const {
   const auto measured = functionals(fields);
-  const auto targets = ramps(model_.targets);
+  const auto targets = model_.targets.in_order();
   Eigen::VectorXd errors(layout_.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) >= 0)
@@ -103,7 +99,7 @@ Eigen::VectorXd SemiImplicitProblem::constraint_errors(const Fields& fields, dou
 
 Eigen::VectorXd SemiImplicitProblem::constraint_scales(const Fields& fields, double time) const {
   const double area = functionals(fields)[1];
-  const auto targets = ramps(model_.targets);
+  const auto targets = model_.targets.in_order();
   Eigen::VectorXd scales(layout_.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) < 0) continue;

@@ -22,20 +22,6 @@ constexpr double worn_quality = 0.3;
 constexpr double worn_fraction = 0.75;
 constexpr int redistribution_sweeps = 10;
 
-std::vector<int> active_constraints(const model::Model& model) {
-  const auto& targets = model.targets;
-  std::vector<int> active;
-  if (targets.volume) active.push_back(0);
-  if (targets.area) active.push_back(1);
-  if (model.is_two_phase && targets.phase_difference) active.push_back(2);
-  return active;
-}
-
-const model::Ramp& target_of(const model::Targets& targets, int constraint) {
-  if (constraint == 0) return *targets.volume;
-  return constraint == 1 ? *targets.area : *targets.phase_difference;
-}
-
 }  // namespace
 
 VariationalProblem::VariationalProblem(std::shared_ptr<const mesh::Triangulation> triangulation,
@@ -45,7 +31,7 @@ VariationalProblem::VariationalProblem(std::shared_ptr<const mesh::Triangulation
       energy_(shared_triangulation_, std::move(model), threads),
       graph_(make_normal_graph(*shared_triangulation_, positions)),
       quality_of_reference_(mesh::quality(*shared_triangulation_, positions)),
-      active_(active_constraints(energy_.model())) {}
+      active_(model::active_constraints(energy_.model())) {}
 
 Eigen::Index VariationalProblem::num_nodal() const {
   return graph_.reference.rows() * block_size();
@@ -99,8 +85,7 @@ Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
     y[i * block + displacement] = moved.row(i).dot(graph_.directions.row(i));
     if (block == 5) y[i * block + phase] = start.values.order_parameter[i];
   }
-  const auto& given = start.values.multipliers;
-  const std::array values{given.volume, given.area, given.phase};
+  const auto values = start.values.multipliers.in_order();
   for (std::size_t k = 0; k < active_.size(); ++k)
     y[num_nodal() + static_cast<Eigen::Index>(k)] = values[at(active_[k])].value_or(0.0);
   return y;
@@ -113,12 +98,10 @@ Fields VariationalProblem::values(const Eigen::VectorXd& y) const {
   result.positions = now.positions;
   result.order_parameter = now.order_parameter;
   result.mean_curvature = energy_.mean_curvature(now);
+  std::array<std::optional<double>, model::num_constraints> named;
   const auto weights = multipliers(y);
-  const auto value = [&](int k) -> std::optional<double> {
-    if (std::find(active_.begin(), active_.end(), k) == active_.end()) return std::nullopt;
-    return weights[at(k)];
-  };
-  result.multipliers = {value(0), value(1), value(2)};
+  for (const int k : active_) named[at(k)] = weights[at(k)];
+  result.multipliers = PerConstraint::from(named);
   return result;
 }
 
@@ -176,9 +159,10 @@ Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, d
     if (block == 5) result[i * block + phase] = gradient.order_parameter[i];
   }
   const bool is_original = settings.form == ConstraintForm::original;
+  const auto targets = model().targets.in_order();
   for (std::size_t k = 0; k < active_.size(); ++k) {
     const int which = active_[k];
-    const auto& target = target_of(model().targets, which);
+    const auto& target = *targets[at(which)];
     const double error = constraints.values[at(which)] - target.value(time);
     double rate = constraints.positions[at(which)].cwiseProduct(rates.velocity).sum();
     if (which == 2) rate += constraints.order_parameter.dot(rates.order_parameter);

@@ -19,16 +19,12 @@ std::array<double, 3> in_natural_units(const problem::PerConstraint& multipliers
           multipliers.phase.value_or(0) / unit};
 }
 
-std::array<std::optional<double>, 3> entries(const problem::PerConstraint& values) {
-  return {values.volume, values.area, values.phase};
-}
-
 double characteristic_radius(const problem::Diagnostics& diagnostics) {
   return std::sqrt(diagnostics.area / (4 * std::numbers::pi));
 }
 
 bool targets_move(const model::Targets& targets, double time) {
-  for (const auto& ramp : {targets.volume, targets.area, targets.phase_difference}) {
+  for (const auto& ramp : targets.in_order()) {
     if (ramp && !ramp->is_constant() && time < ramp->end) return true;
   }
   return false;
@@ -64,7 +60,7 @@ bool Stationarity::meets_velocity(const StepView& view) const {
 }
 
 bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) const {
-  const auto errors = entries(diagnostics.constraint_errors);
+  const auto errors = diagnostics.constraint_errors.in_order();
   return std::all_of(errors.begin(), errors.end(), [&](const auto& error) {
     return std::abs(error.value_or(0)) < options_.constraint;
   });

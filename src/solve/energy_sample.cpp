@@ -17,10 +17,6 @@ namespace {
 constexpr std::array<std::string_view, 3> constraint_names{"volume", "area", "phase_difference"};
 constexpr std::size_t phase = 2;
 
-std::array<std::optional<model::Ramp>, 3> ramps(const model::Targets& targets) {
-  return {targets.volume, targets.area, targets.phase_difference};
-}
-
 }  // namespace
 
 EnergySample sample_energy(const problem::EnergyProblem& problem, const mesh::Positions& positions,
@@ -52,11 +48,11 @@ Eigen::VectorXd order_parameter_of(const problem::NormalGraph& graph,
 }
 
 ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& scales) {
-  const auto targets = ramps(model.targets);
+  const auto targets = model.targets.in_order();
   const double length = scales.length;
   const std::array<double, 3> units{length * length * length, length * length, length * length};
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (!targets[i] || (i == phase && !model.is_two_phase)) continue;
+  for (const int place : model::active_constraints(model)) {
+    const auto i = static_cast<std::size_t>(place);
     if (!targets[i]->is_constant()) {
       throw ConfigError(
           fmt::format("constraints.{} = [{}, {}, {}, {}]: must be constant for solver.method = "
@@ -125,11 +121,10 @@ Eigen::VectorXd ConstraintSet::lagrangian_gradient(const problem::NormalGraph& g
 }
 
 problem::PerConstraint ConstraintSet::named(const Eigen::VectorXd& multipliers) const {
-  problem::PerConstraint result;
-  const std::array<std::optional<double>*, 3> entries{&result.volume, &result.area, &result.phase};
+  std::array<std::optional<double>, model::num_constraints> values;
   for (Eigen::Index k = 0; k < size(); ++k)
-    *entries[active_[static_cast<std::size_t>(k)]] = multipliers[k];
-  return result;
+    values[active_[static_cast<std::size_t>(k)]] = multipliers[k];
+  return problem::PerConstraint::from(values);
 }
 
 }  // namespace vesica::solve

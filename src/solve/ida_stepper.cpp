@@ -218,9 +218,8 @@ void IdaStepper::configure_linear_solver() {
 
 /// Steps end at the kinks of the ramps: the multipliers jump there.
 double IdaStepper::next_stop_time(double end_time) const {
-  const auto& targets = problem_->model().targets;
   double next = end_time;
-  for (const auto& ramp : {targets.volume, targets.area, targets.phase_difference}) {
+  for (const auto& ramp : problem_->model().targets.in_order()) {
     if (!ramp || ramp->is_constant()) continue;
     for (const double kink : {ramp->start, ramp->end}) {
       if (kink > state_.time) next = std::min(next, kink);

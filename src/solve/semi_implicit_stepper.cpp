@@ -62,7 +62,7 @@ problem::State prepared(problem::State start, const problem::SemiImplicitProblem
 
 Eigen::VectorXd active_multipliers(const problem::DofLayout& layout,
                                    const problem::PerConstraint& values) {
-  const std::array all{values.volume, values.area, values.phase};
+  const auto all = values.in_order();
   Eigen::VectorXd active(layout.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout.multiplier(i) >= 0)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -23,6 +24,24 @@ void store_blocks(const ElementMatrix<Block>& local, double* out) {
       }
     }
   }
+}
+
+/// Sums entries of shape (T, 6, columns), one group for each node of each triangle, over the
+/// triangles around a node, always in the same order: shape (N, columns), the shape of `result`.
+template <class Matrix>
+void gather_nodal(const NodeGraph& graph, const std::vector<double>& local, int threads,
+                  Matrix&& result) {
+  const auto columns = static_cast<std::size_t>(result.cols());
+  parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
+    for (int node = begin; node < end; ++node) {
+      for (std::size_t k = 0; k < columns; ++k) {
+        double sum = 0;
+        for (const auto code : graph.incidences(node))
+          sum += local[static_cast<std::size_t>(code) * columns + k];
+        result(node, static_cast<Eigen::Index>(k)) = sum;
+      }
+    }
+  });
 }
 
 /// Sums the stored element matrices of all triangles into a matrix from

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "vesica/model/area.hpp"
 #include "vesica/model/bending_energy.hpp"
@@ -26,6 +28,11 @@ struct Targets {
   std::optional<Ramp> volume;            ///< [length^3]
   std::optional<Ramp> area;              ///< [length^2]
   std::optional<Ramp> phase_difference;  ///< A_1 - A_2 [length^2]
+
+  /// The same in the order of `Constraints`.
+  [[nodiscard]] std::array<std::optional<Ramp>, num_constraints> in_order() const {
+    return {volume, area, phase_difference};
+  }
 };
 
 /// Which physics: the material, whether there is a phase field, and the constraints.
@@ -34,5 +41,21 @@ struct Model {
   bool is_two_phase = true;
   Targets targets;
 };
+
+/// Places in `Constraints` of those that have a target, ascending; the phase difference counts only
+/// where there is a phase field.
+[[nodiscard]] inline std::vector<int> active_constraints(const Model& model) {
+  const auto targets = model.targets.in_order();
+  std::vector<int> active;
+  int place = 0;
+  const auto add = [&]<class Constraint>(const Constraint&) {
+    if (targets[static_cast<std::size_t>(place)] &&
+        (model.is_two_phase || !Constraint::needs_phase_field))
+      active.push_back(place);
+    ++place;
+  };
+  std::apply([&](const auto&... constraint) { (add(constraint), ...); }, Constraints{});
+  return active;
+}
 
 }  // namespace vesica::model

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,14 @@ struct PerConstraint {
   std::optional<double> volume;
   std::optional<double> area;
   std::optional<double> phase;
+
+  /// The same in the order of model::Constraints, and back.
+  [[nodiscard]] std::array<std::optional<double>, 3> in_order() const {
+    return {volume, area, phase};
+  }
+  [[nodiscard]] static PerConstraint from(const std::array<std::optional<double>, 3>& values) {
+    return {values[0], values[1], values[2]};
+  }
 };
 
 /// Nodal fields and multipliers, or their time derivatives.
