@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <optional>
 #include <utility>
 
 #include "vesica/core/error.hpp"
+#include "vesica/core/scoped_timer.hpp"
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
@@ -31,6 +31,19 @@ struct StepperSlot {
   }
 };
 
+/// Adds the processor seconds, of all threads, of its lifetime to a total.
+class ProcessorTimer {
+ public:
+  explicit ProcessorTimer(double& total) : total_(total) {}
+  ProcessorTimer(const ProcessorTimer&) = delete;
+  ProcessorTimer& operator=(const ProcessorTimer&) = delete;
+  ~ProcessorTimer() { total_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+ private:
+  double& total_;
+  std::clock_t start_ = std::clock();
+};
+
 /// One run; its members are what the steps of the loop share.
 class Run {
  public:
@@ -50,7 +63,7 @@ class Run {
     outcome_.initial_quality = outcome_.smallest_quality = diagnostics_.quality;
     std::optional<Stop> end = look_and_respond();
     while (!end) {
-      report_ = timed([&] { return stepper_.current->step(stop_.end_time); });
+      report_ = stepped([&] { return stepper_.current->step(stop_.end_time); });
       if (report_.status == solve::StepStatus::failed) {
         if (!change_mesh_if_asked(&Controller::respond_to_failure, retry_step))
           end = Stop{RunStatus::numerical_failure, report_.reason};
@@ -71,16 +84,28 @@ class Run {
   [[nodiscard]] const problem::State& state() const { return stepper_.current->state(); }
   [[nodiscard]] StepView view() const { return {state(), report_, diagnostics_}; }
 
-  /// A report of the stepper with its processor seconds and the work of steppers before it.
+  /// A report of the stepper with the work of controllers and of steppers before it.
   template <class Call>
-  solve::StepReport timed(Call&& call) {
-    const std::clock_t start = std::clock();
-    solve::StepReport report = call();
+  solve::StepReport stepped(Call&& call) {
+    solve::StepReport report;
+    {
+      const ProcessorTimer timer(processor_seconds_);
+      report = call();
+    }
+    counts_ = report.counts;
+    seconds_ = report.seconds;
     report.counts += earlier_counts_;
     report.seconds += earlier_seconds_;
-    processor_seconds_ += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     report.seconds.processor = processor_seconds_;
     return report;
+  }
+
+  /// What a controller asks for costs seconds, too.
+  template <class Call>
+  auto controlled(Call&& call) {
+    const ScopedTimer timer(earlier_seconds_.total);
+    const ProcessorTimer processor_timer(processor_seconds_);
+    return call();
   }
 
   void measure() {
@@ -102,7 +127,7 @@ class Run {
     std::optional<Stop> end;
     std::optional<Remesh> remesh;
     for (auto* controller : controllers_) {
-      for (auto& request : controller->respond(view())) {
+      for (auto& request : controlled([&] { return controller->respond(view()); })) {
         if (const auto* damping = std::get_if<SetDamping>(&request))
           stepper_.current->set_damping(damping->alpha);
         if (const auto* stop = std::get_if<Stop>(&request); stop && !end) end = *stop;
@@ -123,7 +148,7 @@ class Run {
   /// Carries out the first Remesh that a controller answers with.
   bool change_mesh_if_asked(Response response, double step_factor) {
     for (auto* controller : controllers_) {
-      for (const auto& request : (controller->*response)(view())) {
+      for (const auto& request : controlled([&] { return (controller->*response)(view()); })) {
         if (const auto* remesh = std::get_if<Remesh>(&request))
           return change_mesh(*remesh, step_factor);
       }
@@ -135,8 +160,7 @@ class Run {
   bool change_mesh(const Remesh& remesh, double step_factor) {
     if (stepper_.factory == nullptr)
       throw ConfigError("relax: a new mesh is asked for: needs a factory of steppers");
-    const auto begin = std::chrono::steady_clock::now();
-    auto changed = remeshed(model_, state(), remesh);
+    auto changed = controlled([&] { return remeshed(model_, state(), remesh); });
     if (!changed) return false;
     MeshChange change{report_.counts.steps,
                       state().time,
@@ -147,11 +171,9 @@ class Run {
                       remesh.reason};
     step_size_ *= step_factor;
     stepper_.replace(std::move(*changed), {step_size_});
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     report_.status = solve::StepStatus::accepted;
-    report_.seconds.total += elapsed.count();
-    earlier_counts_ = report_.counts;
-    earlier_seconds_ = report_.seconds;
+    earlier_counts_ += std::exchange(counts_, {});
+    earlier_seconds_ += std::exchange(seconds_, {});
     stationarity_.forget_steps();
     measure();
     change.quality_after = diagnostics_.quality;
@@ -163,7 +185,7 @@ class Run {
   /// The state rests: take the constraints to round-off, then look at all criteria once more. When
   /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
-    const auto report = timed([&] { return stepper_.current->finish(); });
+    const auto report = stepped([&] { return stepper_.current->finish(); });
     if (report.status == solve::StepStatus::accepted) {
       report_ = report;
       measure();
@@ -200,9 +222,11 @@ class Run {
   Stationarity stationarity_;
   double processor_seconds_ = 0;
   solve::StepReport report_;
-  solve::SolverCounts earlier_counts_;  // of steppers on earlier meshes
-  solve::SolverSeconds earlier_seconds_;
-  double step_size_ = 0;  // of the last step, or with which the stepper begins
+  solve::SolverCounts counts_;  // of the present stepper
+  solve::SolverSeconds seconds_;
+  solve::SolverCounts earlier_counts_;    // of steppers on earlier meshes
+  solve::SolverSeconds earlier_seconds_;  // and of controllers
+  double step_size_ = 0;                  // of the last step, or with which the stepper begins
   problem::Diagnostics diagnostics_;
   Outcome outcome_;
 };

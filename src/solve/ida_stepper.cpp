@@ -233,7 +233,10 @@ std::optional<problem::EnergyParts> IdaStepper::energy() const {
 }
 
 StepReport IdaStepper::step(double end_time) {
-  const ScopedTimer timer(total_seconds_);
+  return with_total([&] { return take_step(end_time); });
+}
+
+StepReport IdaStepper::take_step(double end_time) {
   const double stop_time = next_stop_time(end_time);
   if (std::isfinite(stop_time)) check(IDASetStopTime(ida_.get(), stop_time), "IDASetStopTime");
   const double target = std::isfinite(stop_time) ? stop_time : state_.time + scales_.time();
@@ -294,7 +297,6 @@ StepReport IdaStepper::report(StepStatus status, std::string reason) {
   result.reason = std::move(reason);
   result.counts = system_.counts();
   result.seconds = system_.seconds();
-  result.seconds.total = total_seconds_;
   const auto counts = ida_counts();
   result.counts.steps = counts.steps;
   result.counts.newton = counts.newton;

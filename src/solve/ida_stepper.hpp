@@ -34,6 +34,19 @@ class IdaStepper final : public Stepper {
  private:
   struct Callbacks;
 
+  /// The report of a call, with the seconds of all calls as the total.
+  template <class Call>
+  StepReport with_total(Call&& call) {
+    StepReport result;
+    {
+      const ScopedTimer timer(total_seconds_);
+      result = call();
+    }
+    result.seconds.total = total_seconds_;
+    return result;
+  }
+
+  [[nodiscard]] StepReport take_step(double end_time);
   void go_on_from_start(const Restart& restart);
   void find_initial_rates();
   [[nodiscard]] double resting_rate() const;

@@ -25,15 +25,16 @@ constexpr double polished_gradient = 1e-8;
 }  // namespace
 
 StepReport IdaStepper::finish() {
-  const ScopedTimer timer(total_seconds_);
-  try {
-    if (options_.scheme == Scheme::variational && options_.polish) return polish_energy();
-    if (options_.polish) return polish_weak_form();
-    if (options_.final_constraint_solve) take_implicit_step(last_step_size());
-  } catch (const RecoverableError& trouble) {
-    return report(StepStatus::failed, fmt::format("final solve: {}", trouble.what()));
-  }
-  return report(StepStatus::accepted, {});
+  return with_total([this] {
+    try {
+      if (options_.scheme == Scheme::variational && options_.polish) return polish_energy();
+      if (options_.polish) return polish_weak_form();
+      if (options_.final_constraint_solve) take_implicit_step(last_step_size());
+    } catch (const RecoverableError& trouble) {
+      return report(StepStatus::failed, fmt::format("final solve: {}", trouble.what()));
+    }
+    return report(StepStatus::accepted, {});
+  });
 }
 
 double IdaStepper::last_step_size() const {

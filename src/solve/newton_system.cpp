@@ -1,19 +1,6 @@
 #include "newton_system.hpp"
 
-#include <chrono>
-
 namespace vesica::solve {
-
-namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
-
-ScopedTimer::ScopedTimer(double& total) : total_(total), start_(now()) {}
-ScopedTimer::~ScopedTimer() { total_ += now() - start_; }
 
 NewtonSystem::NewtonSystem(const problem::FlowProblem& problem, linalg::DirectSolverKind kind)
     : problem_(problem),

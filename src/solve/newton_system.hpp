@@ -2,25 +2,13 @@
 
 #include <Eigen/Core>
 
+#include "vesica/core/scoped_timer.hpp"
 #include "vesica/linalg/bordered_solver.hpp"
 #include "vesica/problem/flow_problem.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
 
 namespace vesica::solve {
-
-/// Adds the seconds of its lifetime to a total.
-class ScopedTimer {
- public:
-  explicit ScopedTimer(double& total);
-  ScopedTimer(const ScopedTimer&) = delete;
-  ScopedTimer& operator=(const ScopedTimer&) = delete;
-  ~ScopedTimer();
-
- private:
-  double& total_;
-  double start_;
-};
 
 /// Jacobian of a FlowProblem and its factors, with the counts and seconds they cost. One
 /// symbolic factorisation serves all matrices of a mesh.

@@ -31,7 +31,7 @@ struct SolverCounts {
 };
 
 /// Wall-clock seconds by part, and processor seconds of all threads. relax() measures the latter
-/// around the calls of the stepper.
+/// around the calls of steppers and controllers, and adds controllers to the total.
 struct SolverSeconds {
   double processor = 0;
   double total = 0;
