@@ -17,7 +17,8 @@ constexpr double long_edge = 1.9;
 constexpr double long_edge_at_rest = 1.7;
 constexpr double emergency_edge = 2.2;
 constexpr double surplus_nodes = 0.55;
-constexpr double slow = 0.03;
+constexpr double slow = 0.03;  // velocities in natural units
+constexpr double moving = 0.3;
 constexpr int max_changes_after_failures = 5;
 constexpr int max_changes_at_rest = 3;
 
@@ -30,11 +31,10 @@ MeshController::MeshController(const AdaptionOptions& options, model::Model mode
 std::vector<Request> MeshController::respond(const StepView& view) {
   if (!new_quality_) new_quality_ = view.diagnostics.quality;
   if (view.report.counts.steps == 0) return {};
+  const bool may_change = view.report.counts.steps - last_change_ >= options_.min_steps;
+  if (may_change && speed(view) > moving) is_final_ = false;
   if (auto reason = misfit(view)) return ask(view, std::move(*reason));
-  if (is_final_ || view.report.counts.steps - last_change_ < options_.min_steps ||
-      !is_near_rest(view)) {
-    return {};
-  }
+  if (is_final_ || !may_change || speed(view) > slow) return {};
   is_final_ = true;
   return ask(view, "the vesicle is near its equilibrium");
 }
@@ -95,9 +95,10 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
   return std::nullopt;
 }
 
-bool MeshController::is_near_rest(const StepView& view) const {
+/// Of the surface along its normal, without rigid motion, in natural units.
+double MeshController::speed(const StepView& view) const {
   const double unit = scales_.length * scales_.length / scales_.time();
-  return view.diagnostics.velocity.normal_rigid_free < slow * unit;
+  return view.diagnostics.velocity.normal_rigid_free / unit;
 }
 
 }  // namespace vesica::relax

@@ -1,5 +1,6 @@
 #include "vesica/relax/remesh.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "vesica/adapt/local_remesh.hpp"
@@ -15,6 +16,10 @@ namespace {
 
 constexpr double smallest_quality = 0.1;        // of a new mesh, 0.5 as a rule
 constexpr double smallest_normal_cosine = 0.0;  // of a new mesh: neighbours form no fold
+constexpr double coarsest_angle = 0.5;          // edge times curvature, where nodes are short
+constexpr int angle_halvings = 6;
+constexpr int max_attempts = 4;    // to stay within max_nodes
+constexpr double surplus = 1.005;  // of the edges, in another attempt
 
 bool is_usable(const mesh::Surface& surface) {
   return mesh::quality(*surface.triangulation, surface.positions) > smallest_quality &&
@@ -70,14 +75,45 @@ Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& st
   const auto shape_operator =
       fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
   const adapt::PhaseInterface phases{state.values.order_parameter, model.material.interface_width};
-  return adapt::limited_sizes(
-      surface, adapt::size_field(surface, shape_operator, phases, remesh.sizes), remesh.max_nodes);
+  const auto sizes_with = [&](double angle) {
+    auto options = remesh.sizes;
+    options.curvature_angle = angle;
+    return adapt::size_field(surface, shape_operator, phases, options);
+  };
+  const auto is_within = [&](const Eigen::VectorXd& sizes) {
+    return adapt::wanted_nodes(surface, sizes) <= remesh.max_nodes;
+  };
+  double fine = remesh.sizes.curvature_angle;
+  Eigen::VectorXd sizes = sizes_with(fine);
+  if (is_within(sizes) || fine >= coarsest_angle) {
+    return adapt::limited_sizes(surface, std::move(sizes), remesh.max_nodes);
+  }
+  double coarse = coarsest_angle;
+  sizes = sizes_with(coarse);
+  for (int halving = 0; halving < angle_halvings && is_within(sizes); ++halving) {
+    const double middle = (fine + coarse) / 2;
+    Eigen::VectorXd finer = sizes_with(middle);
+    if (is_within(finer)) {
+      sizes = std::move(finer);
+      coarse = middle;
+    } else {
+      fine = middle;
+    }
+  }
+  return adapt::limited_sizes(surface, std::move(sizes), remesh.max_nodes);
 }
 
 std::optional<problem::State> remeshed(const model::Model& model, const problem::State& state,
                                        const Remesh& remesh) {
-  const adapt::Remeshed changed = adapt::local_remesh({state.triangulation, state.values.positions},
-                                                      wanted_sizes(model, state, remesh));
+  const mesh::Surface old{state.triangulation, state.values.positions};
+  Eigen::VectorXd sizes = wanted_sizes(model, state, remesh);
+  adapt::Remeshed changed = adapt::local_remesh(old, sizes);
+  for (int attempt = 1; attempt < max_attempts; ++attempt) {
+    const double excess = changed.surface.triangulation->num_nodes() / remesh.max_nodes;
+    if (excess <= 1) break;
+    sizes *= surplus * std::sqrt(excess);
+    changed = adapt::local_remesh(old, sizes);
+  }
   if (!is_usable(changed.surface)) return std::nullopt;
   problem::State result;
   result.time = state.time;

@@ -21,7 +21,7 @@ struct Stop {
   int signal = 0;
 };
 
-/// A new mesh of the surface, with elements of these sizes and about `max_nodes` nodes at most.
+/// A new mesh of the surface, with elements of these sizes and `max_nodes` nodes at most.
 struct Remesh {
   adapt::SizeFieldOptions sizes;
   double max_nodes = 0;

@@ -17,7 +17,7 @@ struct AdaptionOptions {
   double curvature_angle = 0.4;
   double interface_size = 0.85;
   double final_curvature_angle = 0.2;
-  double final_interface_size = 0.6;
+  double final_interface_size = 0.5;
   double max_size = 0.3;
   int max_nodes = 20000;
   int min_steps = 8;
@@ -42,7 +42,7 @@ struct AdaptionOptions {
                 Rule::positive},
           self.final_interface_size);
     visit(Field{"max_size", "R_c", "longest edge of an element", Rule::positive}, self.max_size);
-    visit(Field{"max_nodes", "-", "elements are enlarged to stay near this number of nodes",
+    visit(Field{"max_nodes", "-", "elements are enlarged to stay within this number of nodes",
                 Rule::at_least_one},
           self.max_nodes);
     visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
@@ -57,7 +57,8 @@ struct AdaptionOptions {
 ///     quality (3.5) below 0.3 and below 0.75 of what it was after the last change
 ///     an edge longer than 1.9 L
 ///     fewer than 0.55 of the nodes are wanted
-///     once, normal velocity without rigid motion below 0.03 (natural units): the fine mesh
+///     once, normal velocity without rigid motion below 0.03 (natural units): the fine mesh, until
+///     the velocity is above 0.3 again
 ///
 /// without waiting: an edge longer than 2.2 L; after failed steps, 5 times at most; and before the
 /// run ends in an equilibrium: the fine mesh if there is none yet, or, 3 times at most, an edge
@@ -75,7 +76,7 @@ class MeshController final : public Controller {
   [[nodiscard]] std::vector<Request> ask(const StepView& view, std::string reason);
   [[nodiscard]] double longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const;
   [[nodiscard]] std::optional<std::string> misfit(const StepView& view) const;
-  [[nodiscard]] bool is_near_rest(const StepView& view) const;
+  [[nodiscard]] double speed(const StepView& view) const;
 
   AdaptionOptions options_;
   model::Model model_;
