@@ -14,13 +14,11 @@ namespace {
 constexpr double low_quality = 0.3;
 constexpr double lost_quality = 0.75;
 constexpr double long_edge = 1.9;
-constexpr double long_edge_at_rest = 1.7;
 constexpr double emergency_edge = 2.2;
 constexpr double surplus_nodes = 0.55;
 constexpr double slow = 0.03;  // velocities in natural units
 constexpr double moving = 0.3;
 constexpr int max_changes_after_failures = 5;
-constexpr int max_changes_at_rest = 3;
 
 }  // namespace
 
@@ -46,14 +44,9 @@ std::vector<Request> MeshController::respond_to_failure(const StepView& view) {
 }
 
 std::vector<Request> MeshController::respond_to_rest(const StepView& view) {
-  if (!is_final_) {
-    is_final_ = true;
-    return ask(view, "the vesicle is in equilibrium");
-  }
-  const double edge = longest_edge(view, wanted_sizes(model_, view.state, request({})));
-  if (edge <= long_edge_at_rest || changes_at_rest_ == max_changes_at_rest) return {};
-  ++changes_at_rest_;
-  return ask(view, fmt::format("an edge is {:.2f} of its size at the equilibrium", edge));
+  if (is_final_) return {};
+  is_final_ = true;
+  return ask(view, "the vesicle is in equilibrium");
 }
 
 Remesh MeshController::request(std::string reason) const {

@@ -61,8 +61,7 @@ struct AdaptionOptions {
 ///     the velocity is above 0.3 again
 ///
 /// without waiting: an edge longer than 2.2 L; after failed steps, 5 times at most; and before the
-/// run ends in an equilibrium: the fine mesh if there is none yet, or, 3 times at most, an edge
-/// longer than 1.7 L.
+/// run ends in an equilibrium: the fine mesh if there is none yet.
 class MeshController final : public Controller {
  public:
   /// `scales` of the case give the units of max_size and of the velocity.
@@ -85,7 +84,6 @@ class MeshController final : public Controller {
   long last_change_ = 0;               // step
   std::optional<double> new_quality_;  // after the last change; absent until it is seen
   int changes_after_failures_ = 0;
-  int changes_at_rest_ = 0;
 };
 
 }  // namespace vesica::relax

@@ -127,13 +127,14 @@ TEST_F(MeshControllerTest, DoesNotEndOnACoarseMesh) {
   EXPECT_TRUE(controller.respond_to_rest(view_at(6)).empty());
 }
 
-TEST_F(MeshControllerTest, DoesNotEndOnLongEdgesUnlessTheyStay) {
-  set_relative_edge(1.75);
-  options_.final_curvature_angle = options_.curvature_angle;
+TEST_F(MeshControllerTest, GoesBackToTheCoarseMeshWhenTheVesicleMovesAgain) {
+  options_.final_curvature_angle = 0.4 * options_.curvature_angle;
   MeshController controller(options_, model_, scales_);
-  for (int change = 0; change < 4; ++change)  // the fine mesh, then three more
-    EXPECT_EQ(controller.respond_to_rest(view_at(3)).size(), 1U);
-  EXPECT_TRUE(controller.respond_to_rest(view_at(6)).empty());
+  ASSERT_EQ(controller.respond_to_rest(view_at(3)).size(), 1U);
+  diagnostics_.velocity.normal_rigid_free = 0.29;
+  ASSERT_EQ(controller.respond(view_at(11)).size(), 1U);  // edges are 2.5 of the fine sizes
+  diagnostics_.velocity.normal_rigid_free = 0.31;
+  EXPECT_TRUE(controller.respond(view_at(20)).empty());
 }
 
 TEST_F(MeshControllerTest, GivesUpAfterFiveFailures) {
