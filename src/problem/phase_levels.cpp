@@ -29,6 +29,10 @@ Eigen::Vector3d centroid(const mesh::Surface& surface) {
 }
 
 Eigen::VectorXd coordinate(const PhaseOptions& options, const mesh::Surface& surface) {
+  if (options.axis == Axis::radial) {
+    const Eigen::RowVector2d centre = centroid(surface).head<2>();
+    return (surface.positions.leftCols<2>().rowwise() - centre).rowwise().norm();
+  }
   return surface.positions.col(static_cast<Eigen::Index>(options.axis));
 }
 
@@ -76,6 +80,8 @@ PhaseLevels bands_along(const PhaseOptions& options, const mesh::Surface& surfac
 
 /// Distances along the circles around the axis: radius times angle, so that there is no seam.
 PhaseLevels bands_around(const PhaseOptions& options, const mesh::Surface& surface, double width) {
+  if (options.axis == Axis::radial)
+    throw ConfigError("phase.axis = \"radial\": bands around an axis need x, y or z");
   const auto axis = static_cast<Eigen::Index>(options.axis);
   const Eigen::Index first = (axis + 1) % 3;
   const Eigen::Index second = (axis + 2) % 3;

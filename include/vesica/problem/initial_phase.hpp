@@ -15,7 +15,8 @@
 namespace vesica::problem {
 
 enum class PhaseKind { uniform, ramp, caps, bands, spots, noise, file };
-enum class Axis { x, y, z };
+/// Coordinate of ramp, caps and bands; radial: distance from the line along z through the centroid.
+enum class Axis { x, y, z, radial };
 enum class CapEnds { high, low, both };
 enum class BandDirection { along, around };
 
@@ -41,7 +42,10 @@ struct PhaseOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     visit(Field{"kind", "-", "ramp (4.1), caps, bands, spots, noise, uniform or file"}, self.kind);
-    visit(Field{"axis", "-", "x, y or z: axis of ramp, caps and bands"}, self.axis);
+    visit(Field{"axis", "-",
+                "x, y, z or radial (distance from the line along z through the centroid): "
+                "coordinate of ramp, caps and bands"},
+          self.axis);
     visit(Field{"from", "length", "ramp: coordinate where c = -1"}, self.from);
     visit(Field{"to", "length", "ramp: coordinate where c = +1"}, self.to);
     visit(Field{"ends", "-", "caps: phase 1 at the high, the low or both ends of the axis"},
@@ -51,7 +55,8 @@ struct PhaseOptions {
           self.fraction);
     visit(Field{"count", "-", "bands: number of domains of phase 1", Rule::at_least_one},
           self.count);
-    visit(Field{"direction", "-", "bands: along the axis or around it (tori)"}, self.direction);
+    visit(Field{"direction", "-", "bands: along the axis or around it (tori; x, y or z)"},
+          self.direction);
     visit(Field{"directions", "-", "spots: list of directions [[x, y, z], ...] from the centre"},
           self.directions);
     visit(Field{"angle", "degree", "spots: half opening angle", Rule::positive}, self.angle);
@@ -91,8 +96,11 @@ struct EnumNames<problem::PhaseKind> {
 };
 template <>
 struct EnumNames<problem::Axis> {
-  static constexpr std::array<std::pair<problem::Axis, std::string_view>, 3> names{
-      {{problem::Axis::x, "x"}, {problem::Axis::y, "y"}, {problem::Axis::z, "z"}}};
+  static constexpr std::array<std::pair<problem::Axis, std::string_view>, 4> names{
+      {{problem::Axis::x, "x"},
+       {problem::Axis::y, "y"},
+       {problem::Axis::z, "z"},
+       {problem::Axis::radial, "radial"}}};
 };
 template <>
 struct EnumNames<problem::CapEnds> {

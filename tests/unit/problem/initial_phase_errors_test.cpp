@@ -32,6 +32,11 @@ TEST(InitialPhase, RefusesOptionsThatDescribeNoPhaseField) {
   options = of_kind(PhaseKind::bands);
   options.count = 0;
   EXPECT_EQ(refusal(options, surface), "phase.count = 0: must be >= 1");
+  options = of_kind(PhaseKind::bands);
+  options.direction = BandDirection::around;
+  options.axis = Axis::radial;
+  EXPECT_EQ(refusal(options, surface),
+            "phase.axis = \"radial\": bands around an axis need x, y or z");
   EXPECT_EQ(refusal({}, surface, std::nullopt, 0.0), "material.interface_width = 0: must be > 0");
 }
 

@@ -63,6 +63,19 @@ TEST(InitialPhase, OfACapIsTheInterfaceProfileAtItsHeight) {
   }
 }
 
+TEST(InitialPhase, OfACapMaySitInsideATorus) {
+  const auto surface = torus(2, 0.5, 12);
+  auto options = of_kind(PhaseKind::caps);
+  options.axis = Axis::radial;
+  options.ends = CapEnds::low;
+  options.fraction = 0.25;
+  const auto c = initial_phase(options, surface, width, std::nullopt);
+  for (Eigen::Index i = 0; i < c.size(); ++i) {
+    const double radius = std::hypot(surface.positions(i, 0), surface.positions(i, 1));
+    EXPECT_NEAR(c[i], std::tanh((1.75 - radius) / width), 1e-12);
+  }
+}
+
 TEST(InitialPhase, OfTwoCapsHasTwoDomains) {
   const auto surface = capsule(4);
   auto options = of_kind(PhaseKind::caps);
