@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "vesica/core/error.hpp"
@@ -36,20 +37,44 @@ void add_order_parameter(problem::State& state, Eigen::VectorXd order_parameter)
   state.values.order_parameter = std::move(order_parameter);
 }
 
+/// How far the bending energy is indefinite in one phase at any time, |k_g^(1) - k_g^(2)| - 2 min
+/// k_kappa, with the two numbers. Between its kinks the material changes linearly.
+struct Indefiniteness {
+  double contrast = 0;
+  double rigidity = 0;
+  [[nodiscard]] double excess() const { return contrast - 2 * rigidity; }
+};
+
+Indefiniteness most_indefinite(const model::Model& model) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Indefiniteness worst{0, infinity};
+  const auto look_at = [&](double time) {
+    const model::Material material = model.material.at(time);
+    const Indefiniteness now{
+        std::abs(material.gaussian_rigidity.difference()),
+        std::min(material.bending_rigidity.phase_1, material.bending_rigidity.phase_2)};
+    if (now.excess() > worst.excess()) worst = now;
+  };
+  look_at(-infinity);
+  for (double kink = model.next_kink(-infinity); kink < infinity; kink = model.next_kink(kink)) {
+    look_at(kink);
+    look_at(std::nextafter(kink, infinity));
+  }
+  return worst;
+}
+
 std::vector<std::string> warnings_of(const model::Model& model, const mesh::Surface& surface) {
   std::vector<std::string> warnings;
   if (!model.is_two_phase) return warnings;
-  const model::MaterialOptions& material = model.material;
+  const double width = model.material.interface_width.value(0);
   const double edge = mesh::longest_edge(*surface.triangulation, surface.positions);
-  if (edge > material.interface_width) {
+  if (edge > width) {
     warnings.push_back(
         fmt::format("the mesh does not resolve the phase interface: longest edge {:.4g} > "
                     "material.interface_width = {:.4g}",
-                    edge, material.interface_width));
+                    edge, width));
   }
-  const double contrast = std::abs(material.gaussian_rigidity.difference());
-  const double rigidity =
-      std::min(material.bending_rigidity.phase_1, material.bending_rigidity.phase_2);
+  const auto [contrast, rigidity] = most_indefinite(model);
   if (contrast > 2 * rigidity) {
     warnings.push_back(
         fmt::format("the bending energy is indefinite in one phase: |k_g^(1) - k_g^(2)| = {:.4g} > "
@@ -71,8 +96,10 @@ bool is_sphere(const mesh::Positions& positions) {
   return distances.maxCoeff() - distances.minCoeff() < 1e-4 * distances.maxCoeff();
 }
 
-bool stays_near(const model::Ramp& target, double value) {
-  return std::max(std::abs(target.from - value), std::abs(target.to - value)) < 1e-3 * value;
+bool stays_near(const model::Schedule& target, double value) {
+  const auto values = target.values();
+  return std::all_of(values.begin(), values.end(),
+                     [value](double v) { return std::abs(v - value) < 1e-3 * value; });
 }
 
 /// On a sphere the variations of volume and area, 1 and -kappa, are parallel: the two targets are
@@ -109,8 +136,8 @@ model::Model model_of(const RunConfig& config, const model::Measures& start) {
 
 Eigen::VectorXd order_parameter_of(const RunConfig& config, const mesh::Surface& surface,
                                    const model::Model& model) {
-  const std::optional<model::Ramp>& target = model.targets.phase_difference;
-  return problem::initial_phase(*config.phase, surface, model.material.interface_width,
+  const std::optional<model::Schedule>& target = model.targets.phase_difference;
+  return problem::initial_phase(*config.phase, surface, model.material.interface_width.value(0),
                                 target ? std::optional(target->value(0)) : std::nullopt);
 }
 

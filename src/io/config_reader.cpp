@@ -134,6 +134,31 @@ void apply_method(const CaseDocument& document, RunConfig& config) {
   config.stop.steps_without_newton = 10;
 }
 
+/// Finds the first key whose schedule is not constant.
+struct FindMotion {
+  std::string_view key;
+
+  void operator()(const Field& field, const model::Schedule& schedule) {
+    if (key.empty() && !schedule.is_constant()) key = field.name;
+  }
+  void operator()(const Field& field, const model::PhaseSchedules& pair) {
+    (*this)(field, pair.phase_1);
+    (*this)(field, pair.phase_2);
+  }
+  void operator()(const Field& field, const model::Target& target) {
+    if (key.empty() && target.begins_at_start) key = field.name;
+    (*this)(field, target.schedule);
+  }
+  void operator()(const Field&, const std::optional<double>&) {}
+};
+
+template <class Options>
+std::string_view moving_key(const Options& options) {
+  FindMotion find_motion{};
+  Options::fields(options, find_motion);
+  return find_motion.key;
+}
+
 void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
   const auto refuse = [&document](std::string_view table, std::string_view key,
                                   std::string_view rule) {
@@ -148,6 +173,13 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
            fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
                        "and \"{}\"",
                        name_of(config.solver.method), name_of(config.solver.scheme)));
+  }
+  if (config.solver.method == solve::Method::minimize) {
+    constexpr std::string_view rule = "must be constant for solver.method = \"minimize\"";
+    const auto material = moving_key(config.material);
+    const auto target = moving_key(config.constraints);
+    if (!material.empty()) refuse("material", material, rule);
+    if (!target.empty()) refuse("constraints", target, rule);
   }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
 }

@@ -101,36 +101,6 @@ void assign(const Entry& entry, Rule, std::vector<Eigen::Vector3d>& target) {
   target = std::move(vectors);
 }
 
-void assign(const Entry& entry, Rule rule, model::PhasePair& target) {
-  constexpr std::string_view expected = "must be a number or an array [phase 1, phase 2]";
-  if (entry.node.is_number()) {
-    const double value = number(entry, entry.node, expected);
-    target = {value, value};
-  } else {
-    const std::vector<double> values = numbers(entry, entry.node, 2, expected);
-    target = {values[0], values[1]};
-  }
-  check(entry, rule, target.phase_1);
-  check(entry, rule, target.phase_2);
-}
-
-void assign(const Entry& entry, Rule, model::Target& target) {
-  constexpr std::string_view expected =
-      "must be a number, an array [from, to, t0, t1], \"initial\" or \"free\"";
-  if (entry.node.is_string()) {
-    const std::string word = entry.node.value<std::string>().value();
-    if (word != "initial" && word != "free") entry.refuse(expected);
-    target = {word == "free" ? model::TargetKind::free : model::TargetKind::initial, {}};
-  } else if (entry.node.is_array()) {
-    const std::vector<double> values = numbers(entry, entry.node, 4, expected);
-    if (values[3] < values[2]) entry.refuse("must have t0 <= t1");
-    target = {model::TargetKind::prescribed, {values[0], values[1], values[2], values[3]}};
-  } else {
-    target = {model::TargetKind::prescribed,
-              model::Ramp::constant(number(entry, entry.node, expected))};
-  }
-}
-
 void assign(const Entry& entry, Rule rule, solve::TimeStep& target) {
   const std::string expected =
       fmt::format("must be a number or \"{}\"", solve::TimeStep::from_interface_width);
@@ -183,18 +153,6 @@ std::string toml_text(const std::vector<Eigen::Vector3d>& value) {
   std::vector<std::string> texts;
   for (const Eigen::Vector3d& vector : value) texts.push_back(toml_text(vector));
   return fmt::format("[{}]", fmt::join(texts, ", "));
-}
-
-std::string toml_text(const model::PhasePair& value) {
-  return fmt::format("[{}, {}]", toml_text(value.phase_1), toml_text(value.phase_2));
-}
-
-std::string toml_text(const model::Target& value) {
-  if (value.kind == model::TargetKind::initial) return "\"initial\"";
-  if (value.kind == model::TargetKind::free) return "\"free\"";
-  if (value.ramp.is_constant()) return toml_text(value.ramp.from);
-  return fmt::format("[{}, {}, {}, {}]", toml_text(value.ramp.from), toml_text(value.ramp.to),
-                     toml_text(value.ramp.start), toml_text(value.ramp.end));
 }
 
 std::string toml_text(const solve::TimeStep& value) {

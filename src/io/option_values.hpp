@@ -26,9 +26,11 @@ void assign(const Entry& entry, Rule rule, std::string& target);
 void assign(const Entry& entry, Rule rule, Eigen::Vector3d& target);
 void assign(const Entry& entry, Rule rule, std::vector<double>& target);
 void assign(const Entry& entry, Rule rule, std::vector<Eigen::Vector3d>& target);
-/// Two numbers, or one for both phases.
-void assign(const Entry& entry, Rule rule, model::PhasePair& target);
-/// A number, [from, to, t0, t1], "initial" or "free".
+/// A number, [from, to, t0, t1] or { times = [...], values = [...], kind = "linear" or "stages" }.
+void assign(const Entry& entry, Rule rule, model::Schedule& target);
+/// An array of two schedules, or one for both phases.
+void assign(const Entry& entry, Rule rule, model::PhaseSchedules& target);
+/// A schedule, whose first value may be "initial", or "initial" or "free".
 void assign(const Entry& entry, Rule rule, model::Target& target);
 /// A number or "(eps/30)^2".
 void assign(const Entry& entry, Rule rule, solve::TimeStep& target);
@@ -40,7 +42,8 @@ void assign(const Entry& entry, Rule rule, solve::TimeStep& target);
 [[nodiscard]] std::string toml_text(const Eigen::Vector3d& value);
 [[nodiscard]] std::string toml_text(const std::vector<double>& value);
 [[nodiscard]] std::string toml_text(const std::vector<Eigen::Vector3d>& value);
-[[nodiscard]] std::string toml_text(const model::PhasePair& value);
+[[nodiscard]] std::string toml_text(const model::Schedule& value);
+[[nodiscard]] std::string toml_text(const model::PhaseSchedules& value);
 [[nodiscard]] std::string toml_text(const model::Target& value);
 [[nodiscard]] std::string toml_text(const solve::TimeStep& value);
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "vesica/core/error.hpp"
 
@@ -18,17 +21,17 @@ constexpr double tolerance = 1e-12;
 
 double characteristic_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A schedule there has the value of the piece that begins at `time`.
+double just_after(double time) { return std::nextafter(time, infinity); }
+
 double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); }
 
-std::string text_of(const Ramp& ramp) {
-  if (ramp.is_constant()) return fmt::format("{}", ramp.from);
-  return fmt::format("[{}, {}, {}, {}]", ramp.from, ramp.to, ramp.start, ramp.end);
-}
-
 /// How a target stands in the case file, with what "initial" came out as.
-std::string text_of(const Target& target, const Ramp& resolved) {
-  if (target.kind == TargetKind::initial) return fmt::format("initial ({:.6g})", resolved.from);
-  return text_of(resolved);
+std::string text_of(const Target& target, const Schedule& resolved) {
+  if (target.kind == TargetKind::initial) return fmt::format("initial ({:.6g})", resolved.first());
+  return model::text_of(resolved);
 }
 
 /// Throws the ConfigError of `constraints.<key>`.
@@ -39,35 +42,35 @@ template <class T>
 
 bool is_given(const Target& target) { return !(target == Target{}); }
 
-void check_ramp(std::string_view key, const Ramp& ramp) {
-  for (const double number : {ramp.from, ramp.to, ramp.start, ramp.end}) {
-    if (!std::isfinite(number)) refuse(key, text_of(ramp), "must be finite");
-  }
-  if (ramp.end < ramp.start) {
-    refuse(key, fmt::format("[{}, {}, {}, {}]", ramp.from, ramp.to, ramp.start, ramp.end),
-           "must end at t1 >= t0");
+void check_finite(std::string_view key, const Schedule& schedule) {
+  for (const double value : schedule.values()) {
+    if (!std::isfinite(value)) refuse(key, model::text_of(schedule), "must be finite");
   }
 }
 
-void check_positive(std::string_view key, const Target& target, const Ramp& ramp) {
-  if (!(ramp.from > 0 && ramp.to > 0)) refuse(key, text_of(target, ramp), "must be > 0");
+void check_positive(std::string_view key, const Target& target, const Schedule& schedule) {
+  for (const double value : schedule.values()) {
+    if (!(value > 0)) refuse(key, text_of(target, schedule), "must be > 0");
+  }
 }
 
 /// The target before bounds are looked at; absent when it is free or `start` does not have it.
-std::optional<Ramp> resolve(std::string_view key, const Target& target,
-                            std::optional<double> start) {
+std::optional<Schedule> resolve(std::string_view key, const Target& target,
+                                std::optional<double> start) {
   if (target.kind == TargetKind::free) return std::nullopt;
-  if (target.kind == TargetKind::initial) {
-    if (!start) return std::nullopt;
-    return Ramp::constant(*start);
-  }
-  check_ramp(key, target.ramp);
-  return target.ramp;
+  const bool needs_start = target.kind == TargetKind::initial || target.begins_at_start;
+  if (needs_start && !start) return std::nullopt;
+  if (target.kind == TargetKind::initial) return Schedule(*start);
+  check_finite(key, target.schedule);
+  if (!target.begins_at_start) return target.schedule;
+  std::vector<double> values(target.schedule.values().begin(), target.schedule.values().end());
+  values.front() = *start;
+  return target.schedule.with_values(std::move(values));
 }
 
 /// Refuses a reduced number beside its dimensional one, out of range, or without an area.
 void check_reduced(const Field& field, double value, std::string_view partner, bool partner_given,
-                   const std::optional<Ramp>& area) {
+                   const std::optional<Schedule>& area) {
   if (!std::isfinite(value) || !satisfies(field.rule, value)) {
     refuse(field.name, value, rule_text(field.rule));
   }
@@ -80,35 +83,52 @@ void check_reduced(const Field& field, double value, std::string_view partner, b
   }
 }
 
-/// The area target with both ends multiplied.
-Ramp scaled(const Ramp& area, double factor_from, double factor_to) {
-  return {area.from * factor_from, area.to * factor_to, area.start, area.end};
+/// The pieces in which both schedules are linear, as times (begin, end]; the ends of time are left
+/// out, where both rest.
+std::vector<std::pair<double, double>> common_pieces(const Schedule& a, const Schedule& b) {
+  std::vector<double> times(a.times().begin(), a.times().end());
+  times.insert(times.end(), b.times().begin(), b.times().end());
+  std::sort(times.begin(), times.end());
+  std::vector<std::pair<double, double>> pieces;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i - 1] < times[i]) pieces.emplace_back(just_after(times[i - 1]), times[i]);
+  }
+  return pieces;
+}
+
+/// Calls visit(time) where a quotient of the schedules may be extreme: before and after every kink
+/// and jump.
+template <class Visit>
+void for_each_extreme_time(const Schedule& a, const Schedule& b, Visit&& visit) {
+  visit(-infinity);
+  for (const auto& [begin, end] : common_pieces(a, b)) {
+    visit(begin);
+    visit(end);
+  }
+  visit(infinity);
 }
 
 /// Largest reduced volume at any time. Where both targets change linearly, V = v0 + v1 s and
 /// A = a0 + a1 s, V / A^(3/2) has at most one extremum, at v1 A = 3/2 a1 V.
-double largest_reduced_volume(const Ramp& volume, const Ramp& area) {
-  const auto at = [&](double time) {
-    return volume.value(time) / ball_volume(characteristic_radius(area.value(time)));
+double largest_reduced_volume(const Schedule& volume, const Schedule& area) {
+  double largest = 0;
+  const auto look_at = [&](double time) {
+    const double radius = characteristic_radius(area.value(time));
+    largest = std::max(largest, volume.value(time) / ball_volume(radius));
   };
-  double largest = std::max(volume.from / ball_volume(characteristic_radius(area.from)),
-                            volume.to / ball_volume(characteristic_radius(area.to)));
-  for (const double time : {volume.start, volume.end, area.start, area.end}) {
-    largest = std::max(largest, at(time));
-  }
-  const double begin = std::max(volume.start, area.start);
-  const double end = std::min(volume.end, area.end);
-  const double v1 = volume.rate(begin);
-  const double a1 = area.rate(begin);
-  if (begin < end && v1 != 0 && a1 != 0) {
+  for_each_extreme_time(volume, area, look_at);
+  for (const auto& [begin, end] : common_pieces(volume, area)) {
+    const double v1 = volume.rate(end);
+    const double a1 = area.rate(end);
+    if (v1 == 0 || a1 == 0) continue;
     const double s = 2 * area.value(begin) / a1 - 3 * volume.value(begin) / v1;
-    if (s > 0 && begin + s < end) largest = std::max(largest, at(begin + s));
+    if (s > 0 && begin + s < end) look_at(begin + s);
   }
   return largest;
 }
 
-std::optional<Ramp> volume_target(const ConstraintOptions& options, const Measures& start,
-                                  const std::optional<Ramp>& area) {
+std::optional<Schedule> volume_target(const ConstraintOptions& options, const Measures& start,
+                                      const std::optional<Schedule>& area) {
   if (options.reduced_volume) {
     const double reduced = *options.reduced_volume;
     check_reduced({"reduced_volume", "-", "", Rule::positive}, reduced, "volume",
@@ -116,9 +136,10 @@ std::optional<Ramp> volume_target(const ConstraintOptions& options, const Measur
     if (reduced > 1 + tolerance) {
       refuse("reduced_volume", reduced, "must be <= 1: no surface of this area encloses more");
     }
-    const double from = reduced * ball_volume(characteristic_radius(area->from)) / area->from;
-    const double to = reduced * ball_volume(characteristic_radius(area->to)) / area->to;
-    return scaled(*area, from, to);
+    std::vector<double> volumes;
+    for (const double value : area->values())
+      volumes.push_back(reduced * ball_volume(characteristic_radius(value)));
+    return area->with_values(std::move(volumes));
   }
   const auto volume = resolve("volume", options.volume, start.volume);
   if (volume) check_positive("volume", options.volume, *volume);
@@ -139,7 +160,8 @@ void check_reduced_volume(const ConstraintOptions& options, const Targets& targe
       "encloses more",
       reduced, text_of(options.area, *targets.area));
   if (options.reduced_volume) {
-    refuse("reduced_volume", *options.reduced_volume, rule + " (volume is linear in time)");
+    refuse("reduced_volume", *options.reduced_volume,
+           rule + " (volume is linear between the times of the area)");
   }
   refuse("volume", text_of(options.volume, *targets.volume), rule);
 }
@@ -147,28 +169,25 @@ void check_reduced_volume(const ConstraintOptions& options, const Targets& targe
 void check_single_phase(const ConstraintOptions& options) {
   constexpr std::string_view rule = "must be left out: the vesicle has a single phase";
   if (options.phase_difference.kind == TargetKind::prescribed) {
-    refuse("phase_difference", text_of(options.phase_difference.ramp), rule);
+    refuse("phase_difference", model::text_of(options.phase_difference.schedule), rule);
   }
   if (options.phase_fraction) refuse("phase_fraction", *options.phase_fraction, rule);
 }
 
 /// |A_1 - A_2| < A at all times; both change linearly between the times looked at. At equality one
 /// phase is empty, h'(c) = 0 everywhere and no phase field can be moved to keep the target.
-void check_phase_difference(const Target& target, const Ramp& phase, const Ramp& area) {
+void check_phase_difference(const Target& target, const Schedule& phase, const Schedule& area) {
   const auto check = [&](double difference, double area_then) {
     if (std::abs(difference) < area_then * (1 - tolerance)) return;
     refuse("phase_difference", text_of(target, phase),
            fmt::format("must lie between -area and area ({:.5g})", area_then));
   };
-  check(phase.from, area.from);
-  check(phase.to, area.to);
-  for (const double time : {phase.start, phase.end, area.start, area.end}) {
-    check(phase.value(time), area.value(time));
-  }
+  for_each_extreme_time(phase, area,
+                        [&](double time) { check(phase.value(time), area.value(time)); });
 }
 
-std::optional<Ramp> phase_target(const ConstraintOptions& options, const Measures& start,
-                                 const std::optional<Ramp>& area) {
+std::optional<Schedule> phase_target(const ConstraintOptions& options, const Measures& start,
+                                     const std::optional<Schedule>& area) {
   if (options.phase_fraction) {
     const double fraction = *options.phase_fraction;
     check_reduced({"phase_fraction", "-", "", Rule::fraction}, fraction, "phase_difference",
@@ -176,7 +195,7 @@ std::optional<Ramp> phase_target(const ConstraintOptions& options, const Measure
     if (fraction == 0 || fraction == 1) {
       refuse("phase_fraction", fraction, "must lie between 0 and 1: one phase would be empty");
     }
-    return scaled(*area, 1 - 2 * fraction, 1 - 2 * fraction);
+    return area->scaled(1 - 2 * fraction);
   }
   const auto phase = resolve("phase_difference", options.phase_difference, start.phase_difference);
   if (phase && area) check_phase_difference(options.phase_difference, *phase, *area);

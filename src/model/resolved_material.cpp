@@ -22,7 +22,10 @@ struct CheckRules {
     if (!std::isfinite(value)) refuse(field.name, value, "must be finite");
     if (!satisfies(field.rule, value)) refuse(field.name, value, rule_text(field.rule));
   }
-  void operator()(const Field& field, const PhasePair& pair) const {
+  void operator()(const Field& field, const Schedule& schedule) const {
+    for (const double value : schedule.values()) (*this)(field, value);
+  }
+  void operator()(const Field& field, const PhaseSchedules& pair) const {
     (*this)(field, pair.phase_1);
     (*this)(field, pair.phase_2);
   }
@@ -36,18 +39,21 @@ void check_given_once(const MaterialOptions& options) {
   if (options.reduced_line_tension && options.line_tension != defaults.line_tension) {
     refuse("reduced_line_tension", *options.reduced_line_tension,
            fmt::format("material.line_tension = {} is given too; give one of them",
-                       options.line_tension));
+                       text_of(options.line_tension)));
   }
-  if (options.rigidity_ratio && options.bending_rigidity.difference() != 0) {
+  if (options.rigidity_ratio &&
+      options.bending_rigidity.phase_1 != options.bending_rigidity.phase_2) {
     refuse("rigidity_ratio", *options.rigidity_ratio,
            fmt::format("material.bending_rigidity = [{}, {}] gives the rigidity of phase 2 too; "
                        "give one number for phase 1",
-                       options.bending_rigidity.phase_1, options.bending_rigidity.phase_2));
+                       text_of(options.bending_rigidity.phase_1),
+                       text_of(options.bending_rigidity.phase_2)));
   }
   if (options.saddle_splay_difference && options.gaussian_rigidity != defaults.gaussian_rigidity) {
     refuse("saddle_splay_difference", *options.saddle_splay_difference,
            fmt::format("material.gaussian_rigidity = [{}, {}] is given too; give one of them",
-                       options.gaussian_rigidity.phase_1, options.gaussian_rigidity.phase_2));
+                       text_of(options.gaussian_rigidity.phase_1),
+                       text_of(options.gaussian_rigidity.phase_2)));
   }
 }
 
@@ -57,20 +63,21 @@ MaterialOptions resolved_material(const MaterialOptions& options, double area) {
   MaterialOptions::fields(options, CheckRules{});
   check_given_once(options);
   MaterialOptions material = options;
-  const double rigidity = options.bending_rigidity.phase_1;
+  const Schedule& rigidity = options.bending_rigidity.phase_1;
   if (options.reduced_line_tension) {
     if (!(area > 0) || !std::isfinite(area)) {
       refuse("reduced_line_tension", *options.reduced_line_tension,
              fmt::format("needs a surface area > 0, not {}", area));
     }
     const double characteristic_radius = std::sqrt(area / (4 * std::numbers::pi));
-    material.line_tension = 0.75 * *options.reduced_line_tension * rigidity / characteristic_radius;
+    material.line_tension =
+        rigidity.scaled(0.75 * *options.reduced_line_tension / characteristic_radius);
   }
   if (options.rigidity_ratio) {
-    material.bending_rigidity.phase_2 = *options.rigidity_ratio * rigidity;
+    material.bending_rigidity.phase_2 = rigidity.scaled(*options.rigidity_ratio);
   }
   if (options.saddle_splay_difference) {
-    material.gaussian_rigidity = {*options.saddle_splay_difference * rigidity, 0};
+    material.gaussian_rigidity = {rigidity.scaled(*options.saddle_splay_difference), 0};
   }
   material.reduced_line_tension.reset();
   material.rigidity_ratio.reset();

@@ -15,13 +15,13 @@ namespace vesica::problem {
 
 namespace {
 
-bool needs_shape_operator(const model::Model& model) {
-  const auto& k_g = model.material.gaussian_rigidity;
+bool needs_shape_operator(const model::Material& material) {
+  const auto& k_g = material.gaussian_rigidity;
   return k_g.phase_1 != 0 || k_g.phase_2 != 0;
 }
 
-fem::NodalShapeOperator shape_operator_of(const model::Model& model, const State& state) {
-  if (!needs_shape_operator(model))
+fem::NodalShapeOperator shape_operator_of(const model::Material& material, const State& state) {
+  if (!needs_shape_operator(material))
     return fem::NodalShapeOperator::Zero(state.triangulation->num_nodes(), 6);
   const fem::NodeGraph graph(*state.triangulation);
   return fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
@@ -51,21 +51,21 @@ struct Integrals {
   std::array<double, model::num_constraints> constraints{};
 };
 
-Integrals integrate(const model::Model& model, const State& state) {
-  const auto shape_operator = shape_operator_of(model, state);
+Integrals integrate(const model::Physics& physics, const State& state) {
+  const auto shape_operator = shape_operator_of(physics.material, state);
   Integrals sum;
   for_each_point(state, [&](const SurfaceSample& sample) {
     const auto point = point_of(state, shape_operator, sample);
     std::size_t index = 0;
     const auto add_energy = [&]<class Energy>(const Energy&) {
-      if (takes_part<Energy>(model))
-        sum.energies[index] += sample.weight * Energy::density(model.material, point);
+      if (takes_part<Energy>(physics))
+        sum.energies[index] += sample.weight * Energy::density(physics.material, point);
       ++index;
     };
     std::apply([&](const auto&... energy) { (add_energy(energy), ...); }, model::Energies{});
     index = 0;
     const auto add_constraint = [&]<class Constraint>(const Constraint&) {
-      if (takes_part<Constraint>(model))
+      if (takes_part<Constraint>(physics))
         sum.constraints[index] += sample.weight * Constraint::density(point);
       ++index;
     };
@@ -113,7 +113,7 @@ VelocityNorms velocity_norms(const State& state) {
           std::sqrt(std::max(0.0, tangential_squared))};
 }
 
-std::optional<double> relative_error(const std::optional<model::Ramp>& target, double time,
+std::optional<double> relative_error(const std::optional<model::Schedule>& target, double time,
                                      double value, double scale) {
   if (!target) return std::nullopt;
   return (value - target->value(time)) / scale;
@@ -122,7 +122,7 @@ std::optional<double> relative_error(const std::optional<model::Ramp>& target, d
 }  // namespace
 
 Diagnostics measure(const model::Model& model, const State& state) {
-  const auto integrals = integrate(model, state);
+  const auto integrals = integrate(model.at(state.time), state);
   Diagnostics result;
   result.energy.bending = integrals.energies[0];
   result.energy.gaussian = integrals.energies[1];
@@ -149,6 +149,7 @@ Diagnostics measure(const model::Model& model, const State& state) {
 
 NodalFields nodal_fields(const model::Model& model, const State& state) {
   const auto n = state.triangulation->num_nodes();
+  const auto material = model.material.at(state.time);
   NodalFields fields;
   fields.normals = nodal_normals(*state.triangulation, state.values.positions);
   fields.normal_velocity = Eigen::VectorXd::Zero(n);
@@ -160,7 +161,7 @@ NodalFields nodal_fields(const model::Model& model, const State& state) {
     model::SurfacePoint<double> point;
     point.mean_curvature = state.values.mean_curvature[i];
     point.order_parameter = state.is_two_phase() ? state.values.order_parameter[i] : 1;
-    fields.bending_energy_density[i] = model::BendingEnergy::density(model.material, point);
+    fields.bending_energy_density[i] = model::BendingEnergy::density(material, point);
   }
   return fields;
 }

@@ -189,7 +189,7 @@ void add_element_jacobian(const EquationContext& context, const JacobianWeights&
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const auto q = surrogate_shape_operator(in, frame, interpolated_shape_operator(element, shape));
     const auto out = point_equations(context.point, in, frame, q);
-    const double phase_rate = phase_mobility(context.point.model) * frame.area_element.value;
+    const double phase_rate = phase_mobility(context.point.physics) * frame.area_element.value;
     const auto jacobian = point_jacobian<Block>(out, shape, weights, phase_rate);
     for (std::size_t i = 0; i < 6; ++i) {
       const double value = point.weight * shape.value[i];

@@ -50,24 +50,29 @@ inline EnergyPoint<double> energy_point(const EnergyElement& element,
   return in;
 }
 
+/// Whether the Gauss curvature has to be integrated: 2 pi chi gives that of equal rigidities.
+inline bool has_gaussian_term(const model::Physics& physics) {
+  return physics.is_two_phase && physics.material.gaussian_rigidity.difference() != 0;
+}
+
 /// Weights s_i = (k_g(c_i) - mean of the phases) of the Gauss curvature at the nodes. The mean
 /// multiplies 2 pi chi.
 template <class T>
-T gaussian_weight(const model::Model& model, const T& c) {
-  return (0.5 * model.material.gaussian_rigidity.difference()) * model::phase_indicator(c);
+T gaussian_weight(const model::Physics& physics, const T& c) {
+  return (0.5 * physics.material.gaussian_rigidity.difference()) * model::phase_indicator(c);
 }
 
 /// ds/dc.
 template <class T>
-T gaussian_weight_derivative(const model::Model& model, const T& c) {
-  return (0.5 * model.material.gaussian_rigidity.difference()) *
+T gaussian_weight_derivative(const model::Physics& physics, const T& c) {
+  return (0.5 * physics.material.gaussian_rigidity.difference()) *
          model::phase_indicator_derivative(c);
 }
 
-inline std::array<double, 6> gaussian_weights(const model::Model& model,
+inline std::array<double, 6> gaussian_weights(const model::Physics& physics,
                                               const EnergyElement& element) {
   std::array<double, 6> s{};
-  for (std::size_t i = 0; i < 6; ++i) s[i] = gaussian_weight(model, element.c[i]);
+  for (std::size_t i = 0; i < 6; ++i) s[i] = gaussian_weight(physics, element.c[i]);
   return s;
 }
 

@@ -21,7 +21,7 @@ using GaussianDual = Dual<16>;
 /// What the assembly of one element needs besides its fields. Unknowns of a node: p (0, 1, 2),
 /// displacement along its direction (3), c (4).
 struct ElementContext {
-  const model::Model& model;
+  const model::Physics& physics;
   const Multipliers& multipliers;
   const JacobianWeights& weights;
   std::array<Vec3<double>, 6> directions;
@@ -86,8 +86,9 @@ void add_energy_point(const ElementContext& context, const EnergyElement& elemen
   in.c_u = inputs.scalar(values.c_u);
   in.c_v = inputs.scalar(values.c_v);
   const auto velocity = inputs.vector(interpolate_nodes(element.velocity, shape.value));
-  auto out = energy_point_gradient(context.model, context.multipliers, in);
-  add_flow_terms(context.model, velocity, interpolate_nodes(element.c_rate, shape.value), in, out);
+  auto out = energy_point_gradient(context.physics, context.multipliers, in);
+  add_flow_terms(context.physics, velocity, interpolate_nodes(element.c_rate, shape.value), in,
+                 out);
 
   const std::array<VectorRows<Block>, 3> x{energy_rows<Block>(context, shape, out.x),
                                            energy_rows<Block>(context, shape, out.x_u),
@@ -98,7 +99,7 @@ void add_energy_point(const ElementContext& context, const EnergyElement& elemen
   const std::array<OutputRow<Block>, 3> c{energy_row<Block>(context, shape, out.c),
                                           energy_row<Block>(context, shape, out.c_u),
                                           energy_row<Block>(context, shape, out.c_v)};
-  const auto& m = context.model.material;
+  const auto& m = context.physics.material;
   const double mobility = m.interface_width * m.kinetic_coefficient *
                           norm(cross(values.x_u, values.x_v)) * context.weights.rate;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -168,11 +169,11 @@ void add_gaussian_term(const ElementContext& context, const fem::ShapeValues& sh
 /// Second derivative of the Gaussian term sum_i s(c_i) int phi_i dK of one element.
 void add_gaussian_hessian(const ElementContext& context, const EnergyElement& element,
                           fem::ElementMatrix<5>& matrix) {
-  const auto s = gaussian_weights(context.model, element);
+  const auto s = gaussian_weights(context.physics, element);
   std::array<double, 6> first{};
   std::array<double, 6> second{};
   for (std::size_t i = 0; i < 6; ++i) {
-    const auto d = gaussian_weight_derivative(context.model, Dual<1>::input(element.c[i], 0));
+    const auto d = gaussian_weight_derivative(context.physics, Dual<1>::input(element.c[i], 0));
     first[i] = d.value;
     second[i] = d.derivatives[0];
   }
@@ -202,11 +203,12 @@ void EnergyProblem::assemble_hessian(const EnergyFields& fields, const Multiplie
                                      const EnergyRates& rates, const mesh::Positions& directions,
                                      const JacobianWeights& weights,
                                      linalg::SparseMatrix& matrix) const {
+  const auto physics = model_.at(fields.time);
   std::vector<double> blocks(at(triangulation_->num_triangles()) * 36 * Block * Block);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto& triangle = triangulation_->triangles()[at(t)];
-      ElementContext context{model_, multipliers, weights, {}};
+      ElementContext context{physics, multipliers, weights, {}};
       auto element = energy_element(fields, rates, triangle);
       for (std::size_t i = 0; i < 6; ++i) {
         context.directions[i] = row_of(directions, triangle[i]);
@@ -216,7 +218,7 @@ void EnergyProblem::assemble_hessian(const EnergyFields& fields, const Multiplie
       for (const auto& point : fem::triangle_rule())
         add_energy_point<Block>(context, element, point, local);
       if constexpr (Block == 5) {
-        if (has_gaussian_term()) add_gaussian_hessian(context, element, local);
+        if (has_gaussian_term(physics)) add_gaussian_hessian(context, element, local);
       }
       fem::store_blocks<Block>(local, &blocks[at(t) * 36 * Block * Block]);
     }

@@ -27,15 +27,16 @@ struct EnergyDensities {
 /// With n = x_u x x_v, N = |n| and w = c_u x_v - c_v x_u:
 ///
 ///   N grad x : grad p = nu . (p_u x x_v + x_u x p_v),    N |grad c|^2 = |w|^2 / N.
-inline EnergyDensities energy_densities(const model::Model& model, const EnergyPoint<double>& in) {
-  const auto& m = model.material;
+inline EnergyDensities energy_densities(const model::Physics& physics,
+                                        const EnergyPoint<double>& in) {
+  const auto& m = physics.material;
   const auto n = cross(in.x_u, in.x_v);
   const double area = norm(n);
   EnergyDensities result;
   result.bending = (1 / area) * dot(n, cross(in.p_u, in.x_v) + cross(in.x_u, in.p_v)) +
                    model::interpolate(m.spontaneous_curvature, in.c) * dot(n, in.p) -
                    0.5 * area * dot(in.p, in.p) / model::interpolate(m.bending_rigidity, in.c);
-  if (!model.is_two_phase) return result;
+  if (!physics.is_two_phase) return result;
   const auto w = in.c_u * in.x_v - in.c_v * in.x_u;
   result.line = m.line_tension * (0.5 * m.interface_width * dot(w, w) / area +
                                   area * model::double_well(in.c) / m.interface_width);
@@ -48,9 +49,9 @@ inline EnergyDensities energy_densities(const model::Model& model, const EnergyP
 ///
 /// (N the area element), plus lambda_V x . n / 3 + lambda_A N + lambda_c N h(c).
 template <class T>
-EnergyPoint<T> energy_point_gradient(const model::Model& model, const Multipliers& multipliers,
+EnergyPoint<T> energy_point_gradient(const model::Physics& physics, const Multipliers& multipliers,
                                      const EnergyPoint<T>& in) {
-  const auto& m = model.material;
+  const auto& m = physics.material;
   const Vec3<T> n = cross(in.x_u, in.x_v);
   const T area = norm(n);
   const T inverse = 1.0 / area;
@@ -63,7 +64,7 @@ EnergyPoint<T> energy_point_gradient(const model::Model& model, const Multiplier
   // q: derivative with respect to n
   T along_normal = -0.5 * p_squared / k + multipliers[1];
   EnergyPoint<T> out;
-  if (model.is_two_phase) {
+  if (physics.is_two_phase) {
     const double sigma = m.line_tension;
     const double eps = m.interface_width;
     const Vec3<T> w = in.c_u * in.x_v - in.c_v * in.x_u;
@@ -94,13 +95,13 @@ EnergyPoint<T> energy_point_gradient(const model::Model& model, const Multiplier
 
 /// Adds the terms of the gradient flow, int (x' . nu) nu . xi and eps omega int c' phi.
 template <class T>
-void add_flow_terms(const model::Model& model, const Vec3<T>& velocity, double c_rate,
+void add_flow_terms(const model::Physics& physics, const Vec3<T>& velocity, double c_rate,
                     const EnergyPoint<T>& in, EnergyPoint<T>& out) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
   const T area = norm(n);
   out.x = out.x + (dot(velocity, n) / area) * n;
-  const auto& m = model.material;
-  if (model.is_two_phase)
+  const auto& m = physics.material;
+  if (physics.is_two_phase)
     out.c = out.c + (m.interface_width * m.kinetic_coefficient * c_rate) * area;
 }
 

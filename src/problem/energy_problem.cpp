@@ -1,5 +1,7 @@
 #include "vesica/problem/energy_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <type_traits>
 #include <utility>
@@ -53,13 +55,13 @@ V test_with(const fem::ShapeValues& shape, std::size_t i, const V& value, const 
 }
 
 /// Adds the derivative at the nodes of one element to `local`, shape (6, 7): x, p, c.
-void add_element_gradient(const model::Model& model, const Multipliers& multipliers,
+void add_element_gradient(const model::Physics& physics, const Multipliers& multipliers,
                           const EnergyElement& element, double* local) {
   for (const auto& point : fem::triangle_rule()) {
     const auto& shape = point.shape;
     const auto in = energy_point(element, shape);
-    auto out = energy_point_gradient(model, multipliers, in);
-    add_flow_terms(model, interpolate_nodes(element.velocity, shape.value),
+    auto out = energy_point_gradient(physics, multipliers, in);
+    add_flow_terms(physics, interpolate_nodes(element.velocity, shape.value),
                    interpolate_nodes(element.c_rate, shape.value), in, out);
     for (std::size_t i = 0; i < 6; ++i) {
       double* row = local + 7 * i;
@@ -70,9 +72,10 @@ void add_element_gradient(const model::Model& model, const Multipliers& multipli
   }
 }
 
-void add_gaussian_gradient(const model::Model& model, const EnergyElement& element, double* local) {
+void add_gaussian_gradient(const model::Physics& physics, const EnergyElement& element,
+                           double* local) {
   constexpr auto second = fem::shape_second_derivatives();
-  const auto s = gaussian_weights(model, element);
+  const auto s = gaussian_weights(physics, element);
   std::array<double, 6> by_weight = element.vertex_angle;
   for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
     const auto g = term(gaussian_point(element, s, shape)).gradient;
@@ -84,11 +87,11 @@ void add_gaussian_gradient(const model::Model& model, const EnergyElement& eleme
     }
   });
   for (std::size_t i = 0; i < 6; ++i)
-    local[7 * i + 6] += by_weight[i] * gaussian_weight_derivative(model, element.c[i]);
+    local[7 * i + 6] += by_weight[i] * gaussian_weight_derivative(physics, element.c[i]);
 }
 
-double gaussian_energy(const model::Model& model, const EnergyElement& element) {
-  const auto s = gaussian_weights(model, element);
+double gaussian_energy(const model::Physics& physics, const EnergyElement& element) {
+  const auto s = gaussian_weights(physics, element);
   double sum = 0;
   for (std::size_t i = 0; i < 6; ++i) sum += s[i] * element.vertex_angle[i];
   for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
@@ -132,13 +135,10 @@ EnergyProblem::EnergyProblem(std::shared_ptr<const mesh::Triangulation> triangul
       vertex_angles_(angles_per_element(*triangulation_, graph_)),
       threads_(resolved_threads(threads)) {}
 
-bool EnergyProblem::has_gaussian_term() const {
-  return model_.is_two_phase && model_.material.gaussian_rigidity.difference() != 0;
-}
-
 mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
-                                      const Eigen::VectorXd& order_parameter) const {
+                                      const Eigen::VectorXd& order_parameter, double time) const {
   const EnergyFields fields{positions, {}, order_parameter};
+  const auto physics = model_.at(time);
   const auto count = at(triangulation_->num_triangles());
   std::vector<double> mass(count * 36, 0.0);
   std::vector<double> rhs(count * 18, 0.0);
@@ -148,9 +148,9 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
       for (const auto& point : fem::triangle_rule()) {
         const auto& shape = point.shape;
         const auto in = energy_point(element, shape);
-        const auto out = energy_point_gradient(model_, {}, in);  // at p = 0
+        const auto out = energy_point_gradient(physics, {}, in);  // at p = 0
         const double density = point.weight * norm(cross(in.x_u, in.x_v)) /
-                               model::interpolate(model_.material.bending_rigidity, in.c);
+                               model::interpolate(physics.material.bending_rigidity, in.c);
         for (std::size_t i = 0; i < 6; ++i) {
           add(point.weight * test_with(shape, i, out.p, out.p_u, out.p_v),
               &rhs[at(t) * 18 + 3 * i]);
@@ -165,11 +165,12 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
 }
 
 EnergyFields EnergyProblem::fields(const mesh::Positions& positions,
-                                   const Eigen::VectorXd& order_parameter) const {
-  return {positions, moment(positions, order_parameter), order_parameter};
+                                   const Eigen::VectorXd& order_parameter, double time) const {
+  return {positions, moment(positions, order_parameter, time), order_parameter, time};
 }
 
 EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
+  const auto physics = model_.at(fields.time);
   const auto count = at(triangulation_->num_triangles());
   std::vector<std::array<double, 3>> parts(count);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
@@ -177,13 +178,13 @@ EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
       const auto& triangle = triangulation_->triangles()[at(t)];
       auto element = energy_element(fields, {}, triangle);
       for (const auto& point : fem::triangle_rule()) {
-        const auto density = energy_densities(model_, energy_point(element, point.shape));
+        const auto density = energy_densities(physics, energy_point(element, point.shape));
         parts[at(t)][0] += point.weight * density.bending;
         parts[at(t)][2] += point.weight * density.line;
       }
-      if (!has_gaussian_term()) continue;
+      if (!has_gaussian_term(physics)) continue;
       for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      parts[at(t)][1] = gaussian_energy(model_, element);
+      parts[at(t)][1] = gaussian_energy(physics, element);
     }
   });
   EnergyParts sum;
@@ -193,7 +194,7 @@ EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
     sum.gaussian += part[1];
     line += part[2];
   }
-  const auto& k_g = model_.material.gaussian_rigidity;
+  const auto& k_g = physics.material.gaussian_rigidity;
   const double mean = model_.is_two_phase ? 0.5 * (k_g.phase_1 + k_g.phase_2) : k_g.phase_1;
   sum.gaussian += mean * 2 * std::numbers::pi * triangulation_->euler_characteristic();
   if (model_.is_two_phase) sum.line = line;
@@ -203,7 +204,7 @@ EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
 
 Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const {
   const auto normals = nodal_normals(*triangulation_, fields.positions);
-  const auto& material = model_.material;
+  const auto material = model_.material.at(fields.time);
   Eigen::VectorXd curvature(normals.rows());
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {
     const double c = model_.is_two_phase ? fields.order_parameter[i] : 1.0;
@@ -216,15 +217,16 @@ Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const 
 
 EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,
                                      const EnergyRates& rates) const {
+  const auto physics = model_.at(fields.time);
   std::vector<double> local(at(triangulation_->num_triangles()) * 42, 0.0);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto& triangle = triangulation_->triangles()[at(t)];
       auto element = energy_element(fields, rates, triangle);
-      add_element_gradient(model_, multipliers, element, &local[at(t) * 42]);
-      if (!has_gaussian_term()) continue;
+      add_element_gradient(physics, multipliers, element, &local[at(t) * 42]);
+      if (!has_gaussian_term(physics)) continue;
       for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      add_gaussian_gradient(model_, element, &local[at(t) * 42]);
+      add_gaussian_gradient(physics, element, &local[at(t) * 42]);
     }
   });
   const Eigen::MatrixXd sums = gather(graph_, local, 7, threads_);

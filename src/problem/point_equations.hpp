@@ -21,7 +21,7 @@ struct PointInputs {
 
 /// What else the equations at a point need; not differentiated.
 struct PointSettings {
-  const model::Model& model;
+  const model::Physics& physics;
   double damping = 0;
   std::array<double, model::num_constraints> multipliers{};
 };
@@ -45,14 +45,14 @@ model::Variation<T>& operator+=(model::Variation<T>& sum, const model::Variation
 }
 
 /// eps omega, the weight of c' in (d) [length^2].
-inline double phase_mobility(const model::Model& model) {
-  return model.material.interface_width * model.material.kinetic_coefficient;
+inline double phase_mobility(const model::Physics& physics) {
+  return physics.material.interface_width * physics.material.kinetic_coefficient;
 }
 
 /// Whether a functional takes part: those of the phase field only where there is one.
 template <class Functional>
-constexpr bool takes_part(const model::Model& model) {
-  return model.is_two_phase || !Functional::needs_phase_field;
+constexpr bool takes_part(const model::Physics& physics) {
+  return physics.is_two_phase || !Functional::needs_phase_field;
 }
 
 template <class T>
@@ -72,16 +72,16 @@ model::SurfacePoint<T> surface_point(const PointInputs<T>& in, const fem::Tangen
 template <class T>
 model::Variation<T> lagrangian_variation(const PointSettings& settings,
                                          const model::SurfacePoint<T>& point) {
-  const auto& model = settings.model;
+  const auto& physics = settings.physics;
   model::Variation<T> sum;
   const auto add_energy = [&]<class Energy>(const Energy&) {
-    if (takes_part<Energy>(model)) sum += Energy::variation(model.material, point);
+    if (takes_part<Energy>(physics)) sum += Energy::variation(physics.material, point);
   };
   std::apply([&](const auto&... energy) { (add_energy(energy), ...); }, model::Energies{});
   std::size_t index = 0;
   const auto add_constraint = [&]<class Constraint>(const Constraint&) {
     const double lambda = settings.multipliers[index++];
-    if (lambda == 0 || !takes_part<Constraint>(model)) return;
+    if (lambda == 0 || !takes_part<Constraint>(physics)) return;
     const auto v = Constraint::variation(point);
     sum.a = sum.a + lambda * v.a;
     if constexpr (Constraint::needs_phase_field) sum.s = sum.s + lambda * v.s;
@@ -114,7 +114,7 @@ PointOutputs<T> point_equations(const PointSettings& settings, const PointInputs
   const T normal_velocity = dot(in.velocity, frame.normal);
   out[velocity_row][0] = out[velocity_row][0] + frame.area_element * normal_velocity;
   out[phase_row][0] =
-      out[phase_row][0] + (phase_mobility(settings.model) * in.c_rate) * frame.area_element;
+      out[phase_row][0] + (phase_mobility(settings.physics) * in.c_rate) * frame.area_element;
   const Vec3<T> curvature_vector = (in.kappa - settings.damping * normal_velocity) * frame.normal;
   const Vec3<T> value = frame.area_element * (curvature_vector + settings.damping * in.velocity);
   const Vec3<T> along_u = frame.area_element * frame.dual_u;

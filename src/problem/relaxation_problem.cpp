@@ -25,9 +25,9 @@ mesh::Positions positions_of(const DofLayout& layout, const Eigen::VectorXd& y) 
   return positions;
 }
 
-PointSettings point_settings(const model::Model& model, const DofLayout& layout, double damping,
+PointSettings point_settings(const model::Physics& physics, const DofLayout& layout, double damping,
                              const Eigen::VectorXd& y) {
-  PointSettings settings{model, damping, {}};
+  PointSettings settings{physics, damping, {}};
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout.multiplier(i) >= 0)
       settings.multipliers[at(i)] = y[layout.num_nodal() + layout.multiplier(i)];
@@ -110,7 +110,8 @@ Eigen::VectorXd RelaxationProblem::residual(const EquationSettings& settings, do
   const auto positions = positions_of(layout_, y);
   const auto shape_operator =
       fem::recover_shape_operator(*triangulation_, graph_, positions, threads_);
-  const EquationContext context{point_settings(model_, layout_, settings.damping, y),
+  const auto physics = model_.at(time);
+  const EquationContext context{point_settings(physics, layout_, settings.damping, y),
                                 shape_operator, y, y_rate, layout_.block_size()};
   const auto block = at(layout_.block_size());
   std::vector<double> local(at(triangulation_->num_triangles()) * 6 * block, 0.0);
@@ -150,11 +151,13 @@ linalg::BorderedMatrix RelaxationProblem::make_matrix() const {
 }
 
 void RelaxationProblem::jacobian(const EquationSettings& settings, const JacobianWeights& weights,
-                                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                                 double time, const Eigen::VectorXd& y,
+                                 const Eigen::VectorXd& y_rate,
                                  linalg::BorderedMatrix& matrix) const {
   const auto shape_operator =
       fem::recover_shape_operator(*triangulation_, graph_, positions_of(layout_, y), threads_);
-  const EquationContext context{point_settings(model_, layout_, settings.damping, y),
+  const auto physics = model_.at(time);
+  const EquationContext context{point_settings(physics, layout_, settings.damping, y),
                                 shape_operator, y, y_rate, layout_.block_size()};
   with_block_size(layout_,
                   [&](auto size) { assemble_block<size>(context, weights, matrix.block); });

@@ -10,11 +10,11 @@ namespace vesica::problem {
 Scales scales_of(const model::Model& model, const State& start) {
   double area = 0;
   if (model.targets.area) {
-    area = model.targets.area->to;
+    area = model.targets.area->last();
   } else {
     for_each_point(start, [&](const SurfaceSample& sample) { area += sample.weight; });
   }
-  return {std::sqrt(area / (4 * std::numbers::pi)), model.material.bending_rigidity.phase_1};
+  return {std::sqrt(area / (4 * std::numbers::pi)), model.material.bending_rigidity.phase_1.last()};
 }
 
 }  // namespace vesica::problem

@@ -85,7 +85,7 @@ inline TangentPair tangent_pair(const fem::TangentFrame<double>& frame) {
 
 inline PairWeights pair_weights(const SemiImplicitContext& context, const PointInputs<double>& in,
                                 const fem::TangentFrame<double>& frame) {
-  const auto& material = context.point.model.material;
+  const auto& material = context.point.physics.material;
   const double tau = context.time_step;
   const double k = model::interpolate(material.bending_rigidity, in.c);
   const double difference = in.kappa - model::interpolate(material.spontaneous_curvature, in.c);
@@ -95,7 +95,7 @@ inline PairWeights pair_weights(const SemiImplicitContext& context, const PointI
   weights.gradient = {1, 0, tau * k, tau * sigma_eps};
   weights.value[pair::mass] = 1;
   weights.value[pair::bending] = tau * 0.5 * k * difference * difference;
-  weights.value[pair::phase] = phase_mobility(context.point.model) +
+  weights.value[pair::phase] = phase_mobility(context.point.physics) +
                                tau * material.line_tension / material.interface_width * 2 * convex;
   const auto& n = frame.normal;
   double* normal = &weights.value[pair::normal];

@@ -122,7 +122,8 @@ void SemiImplicitProblem::assemble(const SemiImplicitSettings& settings, const F
                                    SemiImplicitSystem& system) const {
   const double ratio = settings.damping / settings.time_step;
   const double scale = tangential_ == TangentialVelocity::fields ? std::sqrt(ratio) : ratio;
-  const SemiImplicitContext context{{model_, settings.damping, {}},
+  const auto physics = model_.at(settings.time);
+  const SemiImplicitContext context{{physics, settings.damping, {}},
                                     shape_operator,
                                     fields,
                                     settings.time_step,

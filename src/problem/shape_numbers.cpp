@@ -56,7 +56,7 @@ SurfaceMeasures measure_surface(const State& state) {
   return sum;
 }
 
-void add_phase_numbers(const model::MaterialOptions& material, const State& state,
+void add_phase_numbers(const model::Material& material, const State& state,
                        const SurfaceMeasures& measures, ShapeNumbers& numbers) {
   const double rigidity = material.bending_rigidity.phase_1;
   numbers.phase_fraction = (measures.area - measures.phase_difference) / (2 * measures.area);
@@ -80,7 +80,7 @@ ShapeNumbers shape_numbers(const model::Model& model, const State& state) {
   numbers.length = axis.high - axis.low;
   numbers.neck_radius = neck_radius(state, axis);
   if (model.is_two_phase && state.is_two_phase()) {
-    add_phase_numbers(model.material, state, measures, numbers);
+    add_phase_numbers(model.material.at(state.time), state, measures, numbers);
   }
   return numbers;
 }

@@ -52,8 +52,9 @@ Eigen::VectorXd VariationalProblem::displacements(const Eigen::VectorXd& y) cons
   return component(y, displacement);
 }
 
-EnergyFields VariationalProblem::fields(const Eigen::VectorXd& y) const {
+EnergyFields VariationalProblem::fields(double time, const Eigen::VectorXd& y) const {
   EnergyFields fields;
+  fields.time = time;
   fields.positions = graph_.positions(displacements(y));
   fields.moment.resize(graph_.reference.rows(), 3);
   for (Eigen::Index k = 0; k < 3; ++k) fields.moment.col(k) = component(y, k);
@@ -78,7 +79,8 @@ Multipliers VariationalProblem::multipliers(const Eigen::VectorXd& y) const {
 Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
   const auto block = block_size();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
-  const auto moment = energy_.moment(start.values.positions, start.values.order_parameter);
+  const auto moment =
+      energy_.moment(start.values.positions, start.values.order_parameter, start.time);
   const mesh::Positions moved = start.values.positions - graph_.reference;
   for (Eigen::Index i = 0; i < moment.rows(); ++i) {
     y.segment<3>(i * block) = moment.row(i).transpose();
@@ -92,8 +94,8 @@ Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
 }
 
 /// kappa = kappa_s - p . nu / k_kappa.
-Fields VariationalProblem::values(const Eigen::VectorXd& y) const {
-  const auto now = fields(y);
+Fields VariationalProblem::values(double time, const Eigen::VectorXd& y) const {
+  const auto now = fields(time, y);
   Fields result;
   result.positions = now.positions;
   result.order_parameter = now.order_parameter;
@@ -133,9 +135,9 @@ Eigen::VectorXd VariationalProblem::units(const Scales& scales) const {
   return units;
 }
 
-std::optional<EnergyParts> VariationalProblem::energy(const Eigen::VectorXd& y) const {
-  auto now = fields(y);
-  now.moment = energy_.moment(now.positions, now.order_parameter);
+std::optional<EnergyParts> VariationalProblem::energy(double time, const Eigen::VectorXd& y) const {
+  auto now = fields(time, y);
+  now.moment = energy_.moment(now.positions, now.order_parameter, time);
   return energy_.energy(now);
 }
 
@@ -143,7 +145,7 @@ Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, d
                                              const Eigen::VectorXd& y,
                                              const Eigen::VectorXd& y_rate) const {
   const auto block = block_size();
-  const auto now = fields(y);
+  const auto now = fields(time, y);
   const auto rates = energy_rates(y_rate);
   const auto gradient = energy_.gradient(now, multipliers(y), rates);
   const auto constraints = energy_.constraints(now.positions, now.order_parameter);
@@ -207,9 +209,10 @@ Eigen::MatrixXd VariationalProblem::constraint_columns(
 }
 
 void VariationalProblem::jacobian(const EquationSettings& settings, const JacobianWeights& weights,
-                                  const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                                  double time, const Eigen::VectorXd& y,
+                                  const Eigen::VectorXd& y_rate,
                                   linalg::BorderedMatrix& matrix) const {
-  const auto now = fields(y);
+  const auto now = fields(time, y);
   const auto rates = energy_rates(y_rate);
   energy_.hessian(now, multipliers(y), rates, graph_.directions, weights, matrix.block);
   const bool is_original = settings.form == ConstraintForm::original;

@@ -66,28 +66,12 @@ void restore(problem::State& state, const Eigen::VectorXd& targets) {
   state.values.order_parameter = std::move(restored.fields.order_parameter);
 }
 
-}  // namespace
-
-Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
-                             const Remesh& remesh) {
-  const mesh::Surface surface{state.triangulation, state.values.positions};
-  const fem::NodeGraph graph(*state.triangulation);
-  const auto shape_operator =
-      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
-  const adapt::PhaseInterface phases{state.values.order_parameter, model.material.interface_width};
-  const auto sizes_with = [&](double angle) {
-    auto options = remesh.sizes;
-    options.curvature_angle = angle;
-    return adapt::size_field(surface, shape_operator, phases, options);
-  };
-  const auto is_within = [&](const Eigen::VectorXd& sizes) {
-    return adapt::wanted_nodes(surface, sizes) <= remesh.max_nodes;
-  };
-  double fine = remesh.sizes.curvature_angle;
+/// The sizes of the smallest angle, from `fine` to coarsest_angle, that are within the limit; those
+/// of the largest when none is.
+template <class Sizes, class Limit>
+Eigen::VectorXd finest(const Sizes& sizes_with, const Limit& is_within, double fine) {
   Eigen::VectorXd sizes = sizes_with(fine);
-  if (is_within(sizes) || fine >= coarsest_angle) {
-    return adapt::limited_sizes(surface, std::move(sizes), remesh.max_nodes);
-  }
+  if (is_within(sizes) || fine >= coarsest_angle) return sizes;
   double coarse = coarsest_angle;
   sizes = sizes_with(coarse);
   for (int halving = 0; halving < angle_halvings && is_within(sizes); ++halving) {
@@ -100,7 +84,29 @@ Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& st
       fine = middle;
     }
   }
-  return adapt::limited_sizes(surface, std::move(sizes), remesh.max_nodes);
+  return sizes;
+}
+
+}  // namespace
+
+Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
+                             const Remesh& remesh) {
+  const mesh::Surface surface{state.triangulation, state.values.positions};
+  const fem::NodeGraph graph(*state.triangulation);
+  const auto shape_operator =
+      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
+  const adapt::PhaseInterface phases{state.values.order_parameter,
+                                     model.material.interface_width.value(state.time)};
+  const auto sizes_with = [&](double angle) {
+    auto options = remesh.sizes;
+    options.curvature_angle = angle;
+    return adapt::size_field(surface, shape_operator, phases, options);
+  };
+  const auto is_within = [&](const Eigen::VectorXd& sizes) {
+    return adapt::wanted_nodes(surface, sizes) <= remesh.max_nodes;
+  };
+  return adapt::limited_sizes(surface, finest(sizes_with, is_within, remesh.sizes.curvature_angle),
+                              remesh.max_nodes);
 }
 
 std::optional<problem::State> remeshed(const model::Model& model, const problem::State& state,

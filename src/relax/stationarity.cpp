@@ -23,13 +23,6 @@ double characteristic_radius(const problem::Diagnostics& diagnostics) {
   return std::sqrt(diagnostics.area / (4 * std::numbers::pi));
 }
 
-bool targets_move(const model::Targets& targets, double time) {
-  for (const auto& ramp : targets.in_order()) {
-    if (ramp && !ramp->is_constant() && time < ramp->end) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Stationarity::Stationarity(const StopOptions& options, const model::Model& model)
@@ -44,7 +37,7 @@ bool Stationarity::is_at_rest(const StepView& view) {
   const bool counts_rest = !view.report.gradient;
   return (!counts_rest || steps_at_rest_ >= options_.rest_steps) &&
          steps_without_newton_ >= options_.steps_without_newton && meets_velocity(view) &&
-         !targets_move(model_.targets, view.state.time);
+         view.state.time > model_.rests_after();
 }
 
 void Stationarity::forget_steps() {
@@ -69,7 +62,7 @@ bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) co
 bool Stationarity::multipliers_moved(const StepView& view) const {
   if (!last_multipliers_) return true;
   const double radius = characteristic_radius(view.diagnostics);
-  const double rigidity = model_.material.bending_rigidity.phase_1;
+  const double rigidity = model_.material.bending_rigidity.phase_1.last();
   const auto now = in_natural_units(view.state.values.multipliers, radius, rigidity);
   const auto before = in_natural_units(*last_multipliers_, radius, rigidity);
   double largest = 1;

@@ -108,7 +108,8 @@ std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
                                                     const BackwardEulerStep& step) {
   LinearSystem linear{system, step, step.settings, step.start, {}, {}};
   linear.settings.form = problem::ConstraintForm::original;
-  system.set_up(linear.settings, {1, 1 / step.step_size}, linear.y, step.rates(linear.y));
+  system.set_up(linear.settings, {1, 1 / step.step_size}, step.time, linear.y,
+                step.rates(linear.y));
   Gmres gmres(linear);
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     linear.residual = system.residual(linear.settings, step.time, linear.y, step.rates(linear.y));

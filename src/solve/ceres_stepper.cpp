@@ -253,7 +253,7 @@ void CeresStepper::store() {
   const auto n = fields.positions.rows();
   const Eigen::VectorXd steepest = metric_.l2_gradient(
       constraints_.lagrangian_gradient(graph_, point_.sample, multipliers_, is_two_phase()));
-  const auto& material = problem_.model().material;
+  const auto material = problem_.model().material.at(0);
   state_.rates = {};
   state_.rates.positions = (-steepest.head(n)).asDiagonal() * graph_.directions;
   state_.rates.mean_curvature = Eigen::VectorXd::Zero(n);

@@ -69,7 +69,7 @@ EnergyMetric::EnergyMetric(const problem::EnergyProblem& problem, const problem:
 
 void EnergyMetric::factorise(const mesh::Positions& positions,
                              const Eigen::VectorXd& order_parameter) {
-  const auto& material = problem_.model().material;
+  const auto material = problem_.model().material.at(0);
   const auto add = [&](linalg::SparseCholesky& factors, auto&& weights_at) {
     factors.factorise(assemble(problem_, positions, order_parameter, weights_at));
   };

@@ -48,24 +48,22 @@ Eigen::VectorXd order_parameter_of(const problem::NormalGraph& graph,
 }
 
 ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& scales) {
+  for (const auto& [table, key, schedule] : model::schedules_of(model)) {
+    if (schedule.is_constant()) continue;
+    throw ConfigError(fmt::format("{}.{} = {}: must be constant for solver.method = minimize",
+                                  table, key, text_of(schedule)));
+  }
   const auto targets = model.targets.in_order();
   const double length = scales.length;
   const std::array<double, 3> units{length * length * length, length * length, length * length};
   for (const int place : model::active_constraints(model)) {
     const auto i = static_cast<std::size_t>(place);
-    if (!targets[i]->is_constant()) {
-      throw ConfigError(
-          fmt::format("constraints.{} = [{}, {}, {}, {}]: must be constant for solver.method = "
-                      "minimize",
-                      constraint_names[i], targets[i]->from, targets[i]->to, targets[i]->start,
-                      targets[i]->end));
-    }
     active_.push_back(i);
   }
   targets_.resize(size());
   units_.resize(size());
   for (Eigen::Index k = 0; k < size(); ++k) {
-    targets_[k] = targets[active_[static_cast<std::size_t>(k)]]->to;
+    targets_[k] = targets[active_[static_cast<std::size_t>(k)]]->last();
     units_[k] = units[active_[static_cast<std::size_t>(k)]];
   }
 }

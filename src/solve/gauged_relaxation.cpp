@@ -19,8 +19,8 @@ Eigen::VectorXd GaugedRelaxation::initial_values(const problem::State& start) co
   return y;
 }
 
-problem::Fields GaugedRelaxation::values(const Eigen::VectorXd& y) const {
-  return inner_.values(without_gauge(y));
+problem::Fields GaugedRelaxation::values(double time, const Eigen::VectorXd& y) const {
+  return inner_.values(time, without_gauge(y));
 }
 
 problem::Fields GaugedRelaxation::rates(const Eigen::VectorXd& y,
@@ -82,13 +82,13 @@ linalg::BorderedMatrix GaugedRelaxation::make_matrix() const {
 
 /// The border of the gauge is constant; make_matrix() has written it.
 void GaugedRelaxation::jacobian(const problem::EquationSettings& settings,
-                                const problem::JacobianWeights& weights, const Eigen::VectorXd& y,
-                                const Eigen::VectorXd& y_rate,
+                                const problem::JacobianWeights& weights, double time,
+                                const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                                 linalg::BorderedMatrix& matrix) const {
   const auto inner = inner_.num_multipliers();
   linalg::BorderedMatrix part{
       std::move(matrix.block), matrix.columns.leftCols(inner), matrix.rows.topRows(inner), {}};
-  inner_.jacobian(settings, weights, without_gauge(y), without_gauge(y_rate), part);
+  inner_.jacobian(settings, weights, time, without_gauge(y), without_gauge(y_rate), part);
   matrix.block = std::move(part.block);
   matrix.columns.leftCols(inner) = part.columns;
   matrix.rows.topRows(inner) = part.rows;

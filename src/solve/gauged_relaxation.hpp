@@ -22,7 +22,7 @@ class GaugedRelaxation final : public problem::FlowProblem {
     return inner_.num_multipliers() + 6;
   }
   [[nodiscard]] Eigen::VectorXd initial_values(const problem::State& start) const override;
-  [[nodiscard]] problem::Fields values(const Eigen::VectorXd& y) const override;
+  [[nodiscard]] problem::Fields values(double time, const Eigen::VectorXd& y) const override;
   [[nodiscard]] problem::Fields rates(const Eigen::VectorXd& y,
                                       const Eigen::VectorXd& y_rate) const override;
   [[nodiscard]] Eigen::VectorXd differential_mask() const override;
@@ -32,7 +32,7 @@ class GaugedRelaxation final : public problem::FlowProblem {
                                          const Eigen::VectorXd& y_rate) const override;
   [[nodiscard]] linalg::BorderedMatrix make_matrix() const override;
   void jacobian(const problem::EquationSettings& settings, const problem::JacobianWeights& weights,
-                const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -73,10 +74,10 @@ struct IdaStepper::Callbacks {
     });
   }
 
-  static int set_up_preconditioner(realtype, N_Vector y, N_Vector y_rate, N_Vector, realtype cj,
-                                   void* user_data) {
+  static int set_up_preconditioner(realtype time, N_Vector y, N_Vector y_rate, N_Vector,
+                                   realtype cj, void* user_data) {
     return guarded(user_data, [&](IdaStepper& self) {
-      self.system_.set_up(self.settings_, {1, cj}, view(y), view(y_rate));
+      self.system_.set_up(self.settings_, {1, cj}, time, view(y), view(y_rate));
     });
   }
 
@@ -122,17 +123,19 @@ void IdaStepper::go_on_from_start(const Restart& restart) {
   has_stepped_ = true;
 }
 
-/// Newton's method for x', c', kappa and lambda at given x and c. The factors are renewed only when
+/// Newton's method for x', c', kappa and lambda at given x and c, just after the time of the state:
+/// where a schedule has a kink, what comes counts. The factors are renewed only when
 /// the changes do not fall fast: the equations are linear but for kappa, which starts from the
 /// recovered shape operator.
 void IdaStepper::find_initial_rates() {
   const Eigen::VectorXd differential = problem_->differential_mask();
+  const double time = std::nextafter(state_.time, std::numeric_limits<double>::infinity());
   double last_change = 0;
   bool needs_factors = true;
   try {
     for (int iteration = 0; iteration < max_initial_iterations; ++iteration) {
-      const auto residual = system_.residual(settings_, state_.time, y_, y_rate_);
-      if (needs_factors) system_.set_up(settings_, {0, 1}, y_, y_rate_);
+      const auto residual = system_.residual(settings_, time, y_, y_rate_);
+      if (needs_factors) system_.set_up(settings_, {0, 1}, time, y_, y_rate_);
       const Eigen::VectorXd change = system_.solve(residual);
       const Eigen::VectorXd rates = change.cwiseProduct(differential);
       const Eigen::VectorXd values = change - rates;
@@ -216,20 +219,13 @@ void IdaStepper::configure_linear_solver() {
   check(IDASetDeltaCjLSetup(ida, largest_cj_change), "IDASetDeltaCjLSetup");
 }
 
-/// Steps end at the kinks of the ramps: the multipliers jump there.
+/// Steps end where a schedule has a kink or jumps: the multipliers jump there.
 double IdaStepper::next_stop_time(double end_time) const {
-  double next = end_time;
-  for (const auto& ramp : problem_->model().targets.in_order()) {
-    if (!ramp || ramp->is_constant()) continue;
-    for (const double kink : {ramp->start, ramp->end}) {
-      if (kink > state_.time) next = std::min(next, kink);
-    }
-  }
-  return next;
+  return std::min(end_time, problem_->model().next_kink(state_.time));
 }
 
 std::optional<problem::EnergyParts> IdaStepper::energy() const {
-  return polished_energy_ ? polished_energy_ : problem_->energy(y_);
+  return polished_energy_ ? polished_energy_ : problem_->energy(state_.time, y_);
 }
 
 StepReport IdaStepper::step(double end_time) {
@@ -252,11 +248,23 @@ StepReport IdaStepper::take_step(double end_time) {
   y_rate_ = view(ida_y_rate_.get());
   store(time, y_, y_rate_);
   const auto result = report(StepStatus::accepted, {});
-  if (problem_->renew_coordinates(y_, y_rate_)) {
-    reinitialise(restart_step_factor * last_step_size());
-    store(time, y_, y_rate_);
-  }
+  const bool is_renewed = problem_->renew_coordinates(y_, y_rate_);
+  if (is_renewed) store(time, y_, y_rate_);
+  if (problem_->model().jumps_at(time)) return begin_stage(result);
+  if (is_renewed) reinitialise(restart_step_factor * last_step_size());
   return result;
+}
+
+/// After a jump of a target or of the material the velocity and the algebraic unknowns are other
+/// ones: found anew, as at the start. The state stays what the step has reached.
+StepReport IdaStepper::begin_stage(const StepReport& reached) {
+  try {
+    find_initial_rates();
+  } catch (const SolverError& error) {
+    return report(StepStatus::failed, error.what());
+  }
+  reinitialise(options_.initial_step);
+  return reached;
 }
 
 void IdaStepper::set_damping(double alpha) {
@@ -285,7 +293,7 @@ void IdaStepper::reinitialise(double initial_step) {
 
 void IdaStepper::store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
   state_.time = time;
-  state_.values = problem_->values(y);
+  state_.values = problem_->values(time, y);
   state_.rates = problem_->rates(y, y_rate);
   state_.damping = settings_.damping;
 }

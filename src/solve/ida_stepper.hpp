@@ -51,6 +51,7 @@ class IdaStepper final : public Stepper {
   void find_initial_rates();
   [[nodiscard]] double resting_rate() const;
   void restart();
+  StepReport begin_stage(const StepReport& reached);
   void reinitialise(double initial_step);
   [[nodiscard]] double last_step_size() const;
   void take_implicit_step(double size);

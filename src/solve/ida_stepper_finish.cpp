@@ -87,7 +87,7 @@ StepReport IdaStepper::polish_weak_form() {
     const Eigen::VectorXd rates = step.rates(*next);
     y = *next;
     ++polish.iterations;
-    state_.values = gauged.values(y);
+    state_.values = gauged.values(step.time, y);
     state_.rates = gauged.rates(y, rates);
     polish.gradient = relative_force(problem::measure(model, state_));
     polish.is_converged = polish.gradient < polished_gradient;

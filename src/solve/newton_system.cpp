@@ -15,12 +15,12 @@ Eigen::VectorXd NewtonSystem::residual(const problem::EquationSettings& settings
 }
 
 void NewtonSystem::set_up(const problem::EquationSettings& settings,
-                          const problem::JacobianWeights& weights, const Eigen::VectorXd& y,
-                          const Eigen::VectorXd& y_rate) {
+                          const problem::JacobianWeights& weights, double time,
+                          const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
   {
     const ScopedTimer timer(seconds_.jacobian);
     ++counts_.jacobians;
-    problem_.jacobian(settings, weights, y, y_rate, matrix_);
+    problem_.jacobian(settings, weights, time, y, y_rate, matrix_);
   }
   const ScopedTimer timer(seconds_.factorisation);
   ++counts_.factorisations;

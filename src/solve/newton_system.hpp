@@ -20,7 +20,7 @@ class NewtonSystem {
                                          const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
   /// Assembles and factorises.
   void set_up(const problem::EquationSettings& settings, const problem::JacobianWeights& weights,
-              const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
+              double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate);
   /// Solves with the last factors.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b);
 

@@ -103,7 +103,7 @@ PolishReport Optimality::solve() {
   Errors error = errors(now);
   while (!error.are_small() && report.iterations < max_iterations) {
     ++report.iterations;
-    system_.set_up(at_rest(), {1, 0}, y_, rest_);
+    system_.set_up(at_rest(), {1, 0}, time_, y_, rest_);
     const Eigen::VectorXd change = system_.solve_accurately(now);
     double fraction = allowed_fraction(change);
     bool is_better = false;
@@ -139,8 +139,8 @@ Eigen::VectorXd Optimality::metric_times(const linalg::BorderedMatrix& metric,
 Curvature Optimality::lowest_curvature() {
   const double s = shift / scales_.time();
   auto metric = problem_.make_matrix();
-  problem_.jacobian(at_rest(), {0, 1}, y_, rest_, metric);
-  system_.set_up(at_rest(), {1, s}, y_, rest_);
+  problem_.jacobian(at_rest(), {0, 1}, time_, y_, rest_, metric);
+  system_.set_up(at_rest(), {1, s}, time_, y_, rest_);
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(y_.size());
@@ -205,9 +205,9 @@ Equilibrium find_equilibrium(const SolverOptions& options, const model::Model& m
   const auto& y = optimality.y();
   result.state.time = state.time;
   result.state.triangulation = state.triangulation;
-  result.state.values = optimality.problem().values(y);
+  result.state.values = optimality.problem().values(state.time, y);
   result.state.rates = optimality.problem().rates(y, Eigen::VectorXd::Zero(y.size()));
-  result.energy = *optimality.problem().energy(y);
+  result.energy = *optimality.problem().energy(state.time, y);
   result.counts = optimality.system().counts();
   result.counts.newton = result.report.iterations;
   result.seconds = optimality.system().seconds();

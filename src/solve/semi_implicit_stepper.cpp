@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -28,7 +29,8 @@ double resolved_time_step(const SolverOptions& options, const model::Model& mode
                     "give a number",
                     TimeStep::from_interface_width));
   }
-  const double tau = options.time_step.resolved(model.material.interface_width);
+  const auto widths = model.material.interface_width.values();
+  const double tau = options.time_step.resolved(*std::min_element(widths.begin(), widths.end()));
   if (!(tau > 0) || !std::isfinite(tau))
     throw ConfigError(fmt::format("solver.time_step = {}: must be > 0", tau));
   return tau;
@@ -144,7 +146,7 @@ problem::Fields SemiImplicitStepper::advance(double tau, double time) {
   {
     const ScopedTimer timer(seconds_.jacobian);
     ++counts_.jacobians;
-    problem_.assemble({tau, state_.damping}, state_.values, shape_operator, system_);
+    problem_.assemble({tau, state_.damping, time}, state_.values, shape_operator, system_);
   }
   return meet_constraints(solve_system(), time);
 }

@@ -18,8 +18,8 @@ int main() {
 
   model::Model model;
   model.is_two_phase = false;
-  model.targets.volume = model::Ramp::constant(3.769911184308);  // 0.9 of the unit sphere
-  model.targets.area = model::Ramp::constant(12.566370614359);
+  model.targets.volume = model::Schedule(3.769911184308);  // 0.9 of the unit sphere
+  model.targets.area = model::Schedule(12.566370614359);
 
   problem::State start;
   start.triangulation = surface.triangulation;

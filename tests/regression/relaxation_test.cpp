@@ -88,8 +88,8 @@ void expect_sphere_at_rest(bool holds_volume, bool holds_area) {
   auto c = test::single_phase_case(test::make_sphere(3), 1, 1);
   const auto start = problem::measure(c.model, c.start);
   c.model.targets = {};
-  if (holds_volume) c.model.targets.volume = model::Ramp::constant(start.volume);
-  if (holds_area) c.model.targets.area = model::Ramp::constant(start.area);
+  if (holds_volume) c.model.targets.volume = model::Schedule(start.volume);
+  if (holds_area) c.model.targets.area = model::Schedule(start.area);
   const auto result = test::run_case(c);
   EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
   const mesh::Positions moved = result.state.values.positions - c.start.values.positions;

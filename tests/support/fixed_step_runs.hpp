@@ -22,8 +22,8 @@ inline solve::SolverOptions semi_implicit_options(double tau, bool tangential_fi
 inline RelaxationCase undisturbed_cigar(int resolution) {
   auto result = table_1_case(resolution);
   const auto measured = problem::measure(result.model, result.start);
-  result.model.targets.volume = model::Ramp::constant(measured.volume);
-  result.model.targets.area = model::Ramp::constant(measured.area);
+  result.model.targets.volume = model::Schedule(measured.volume);
+  result.model.targets.area = model::Schedule(measured.area);
   return result;
 }
 

@@ -48,7 +48,6 @@ inline problem::State start_on(const mesh::Surface& surface) {
 
 /// The paper's cigar with m = `resolution`, N = 72 m^2 + 2 nodes, and the ramp (4.1) of phases.
 inline RelaxationCase table_1_case(int resolution) {
-  using model::Ramp;
   mesh::ShapeOptions shape;
   shape.resolution = resolution;
   const auto surface = mesh::make_shape(shape);
@@ -59,11 +58,9 @@ inline RelaxationCase table_1_case(int resolution) {
   material.interface_width = 0.3;
   material.kinetic_coefficient = 0.1;
   const double pi = std::numbers::pi;
-  result.model.targets = {Ramp::constant(11 * pi / 12), Ramp::constant(4 * pi),
-                          Ramp::constant(4.71)};
+  result.model.targets = {11 * pi / 12, 4 * pi, 4.71};
   result.start = start_on(surface);
-  result.start.values.order_parameter =
-      problem::initial_phase({}, surface, material.interface_width, 4.71);
+  result.start.values.order_parameter = problem::initial_phase({}, surface, 0.3, 4.71);
   return result;
 }
 
@@ -71,7 +68,7 @@ inline RelaxationCase table_1_case(int resolution) {
 inline RelaxationCase single_phase_case(const mesh::Surface& surface, double volume, double area) {
   RelaxationCase result;
   result.model.is_two_phase = false;
-  result.model.targets = {model::Ramp::constant(volume), model::Ramp::constant(area), {}};
+  result.model.targets = {volume, area, {}};
   result.start = start_on(surface);
   return result;
 }

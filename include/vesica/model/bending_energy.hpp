@@ -13,7 +13,7 @@ struct BendingEnergy {
   static constexpr bool needs_phase_field = false;
 
   template <class T>
-  static T density(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static T density(const Material& m, const SurfacePoint<T>& p) {
     const T difference = p.mean_curvature - interpolate(m.spontaneous_curvature, p.order_parameter);
     return 0.5 * interpolate(m.bending_rigidity, p.order_parameter) * difference * difference;
   }
@@ -21,7 +21,7 @@ struct BendingEnergy {
   /// (2.6a), with int Delta(k (kappa - kappa_s)) w integrated by parts into b = -grad(k (kappa -
   /// kappa_s)).
   template <class T>
-  static Variation<T> variation(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static Variation<T> variation(const Material& m, const SurfacePoint<T>& p) {
     const T& c = p.order_parameter;
     const T k = interpolate(m.bending_rigidity, c);
     const T k_prime = interpolate_derivative(m.bending_rigidity, c);

@@ -14,13 +14,13 @@ struct GaussianEnergy {
   static constexpr bool needs_phase_field = false;
 
   template <class T>
-  static T density(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static T density(const Material& m, const SurfacePoint<T>& p) {
     return interpolate(m.gaussian_rigidity, p.order_parameter) * gaussian_curvature(p);
   }
 
   /// (2.6b), integrated by parts. Zero for equal rigidities: the energy is then topological.
   template <class T>
-  static Variation<T> variation(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static Variation<T> variation(const Material& m, const SurfacePoint<T>& p) {
     if (m.gaussian_rigidity.phase_1 == m.gaussian_rigidity.phase_2) return {};
     const T k_prime = interpolate_derivative(m.gaussian_rigidity, p.order_parameter);
     const Vec3<T>& gradient = p.order_parameter_gradient;

@@ -14,7 +14,7 @@ struct LineEnergy {
   static constexpr bool needs_phase_field = true;
 
   template <class T>
-  static T density(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static T density(const Material& m, const SurfacePoint<T>& p) {
     const Vec3<T>& gradient = p.order_parameter_gradient;
     return m.line_tension * (0.5 * m.interface_width * dot(gradient, gradient) +
                              (1 / m.interface_width) * double_well(p.order_parameter));
@@ -22,7 +22,7 @@ struct LineEnergy {
 
   /// (2.6c), with the Laplacian of c integrated by parts.
   template <class T>
-  static Variation<T> variation(const MaterialOptions& m, const SurfacePoint<T>& p) {
+  static Variation<T> variation(const Material& m, const SurfacePoint<T>& p) {
     const double sigma_eps = m.line_tension * m.interface_width;
     const Vec3<T>& gradient = p.order_parameter_gradient;
     Variation<T> v;

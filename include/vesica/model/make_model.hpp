@@ -19,8 +19,7 @@ struct Measures {
 /// Targets from the options: resolves "initial" with `start` and reduced numbers with the area
 /// target. A phase target that needs a phase field not yet made (`start.phase_difference` absent)
 /// stays absent. Throws ConfigError for targets that no surface satisfies: reduced volume above 1,
-/// |A_1 - A_2| above the area, a quantity given twice, a phase target for a single-phase vesicle, a
-/// ramp with t1 < t0.
+/// |A_1 - A_2| above the area, a quantity given twice, a phase target for a single-phase vesicle.
 [[nodiscard]] Targets make_targets(const ConstraintOptions& options, const Measures& start,
                                    bool is_two_phase);
 

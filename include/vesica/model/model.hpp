@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -25,22 +26,47 @@ inline constexpr int num_constraints = std::tuple_size_v<Constraints>;
 
 /// Targets of the active constraints; an absent one leaves its quantity free.
 struct Targets {
-  std::optional<Ramp> volume;            ///< [length^3]
-  std::optional<Ramp> area;              ///< [length^2]
-  std::optional<Ramp> phase_difference;  ///< A_1 - A_2 [length^2]
+  std::optional<Schedule> volume;            ///< [length^3]
+  std::optional<Schedule> area;              ///< [length^2]
+  std::optional<Schedule> phase_difference;  ///< A_1 - A_2 [length^2]
 
   /// The same in the order of `Constraints`.
-  [[nodiscard]] std::array<std::optional<Ramp>, num_constraints> in_order() const {
+  [[nodiscard]] std::array<std::optional<Schedule>, num_constraints> in_order() const {
     return {volume, area, phase_difference};
   }
 };
 
-/// Which physics: the material, whether there is a phase field, and the constraints.
+/// The terms of the energy at one time.
+struct Physics {
+  Material material;
+  bool is_two_phase = true;
+};
+
+/// Which physics: the material, whether there is a phase field, and the constraints. Material and
+/// targets may change in time.
 struct Model {
   MaterialOptions material;
   bool is_two_phase = true;
   Targets targets;
+
+  [[nodiscard]] Physics at(double time) const { return {material.at(time), is_two_phase}; }
+  /// The first time after `time` at which a material parameter or a target has a kink or jumps;
+  /// infinity when there is none.
+  [[nodiscard]] double next_kink(double time) const;
+  [[nodiscard]] bool jumps_at(double time) const;
+  /// The last kink or jump; minus infinity when nothing changes.
+  [[nodiscard]] double rests_after() const;
 };
+
+/// A schedule of a model and its key in a case file, as in "material.line_tension".
+struct NamedSchedule {
+  std::string_view table;
+  std::string_view key;
+  const Schedule& schedule;
+};
+
+/// All schedules of material and targets; absent targets are left out.
+[[nodiscard]] std::vector<NamedSchedule> schedules_of(const Model& model);
 
 /// Places in `Constraints` of those that have a target, ascending; the phase difference counts only
 /// where there is a phase field.

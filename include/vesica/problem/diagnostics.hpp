@@ -60,6 +60,7 @@ struct NodalFields {
       normals;  ///< unit outward normals, area-weighted mean of the elements around a node
 };
 
+/// With the material and the targets at `state.time`.
 [[nodiscard]] Diagnostics measure(const model::Model& model, const State& state);
 [[nodiscard]] ShapeNumbers shape_numbers(const model::Model& model, const State& state);
 [[nodiscard]] NodalFields nodal_fields(const model::Model& model, const State& state);

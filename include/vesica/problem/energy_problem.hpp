@@ -17,6 +17,7 @@ struct EnergyFields {
   mesh::Positions positions;        ///< x, shape (N, 3) [length]
   mesh::Positions moment;           ///< p = -k_kappa (kappa - kappa_s) nu, (N, 3) [energy/length]
   Eigen::VectorXd order_parameter;  ///< c, shape (N), or (0) for a single-phase vesicle
+  double time = 0;                  ///< that of the material, where it changes
 };
 
 /// Rates that the gradient flow adds to the derivative of the energy; empty: none.
@@ -58,10 +59,11 @@ class EnergyProblem {
 
   /// The maximiser p: one solve with the mass matrix weighted by 1/k_kappa.
   [[nodiscard]] mesh::Positions moment(const mesh::Positions& positions,
-                                       const Eigen::VectorXd& order_parameter) const;
+                                       const Eigen::VectorXd& order_parameter,
+                                       double time = 0) const;
   /// Fields with p at its maximum.
   [[nodiscard]] EnergyFields fields(const mesh::Positions& positions,
-                                    const Eigen::VectorXd& order_parameter) const;
+                                    const Eigen::VectorXd& order_parameter, double time = 0) const;
   [[nodiscard]] EnergyParts energy(const EnergyFields& fields) const;
   /// kappa = kappa_s - p . nu / k_kappa at the nodes, shape (N) [1/length].
   [[nodiscard]] Eigen::VectorXd mean_curvature(const EnergyFields& fields) const;
@@ -83,7 +85,6 @@ class EnergyProblem {
                                                       const EnergyRates& rates) const;
 
  private:
-  [[nodiscard]] bool has_gaussian_term() const;
   template <class T, class Take>
   [[nodiscard]] ConstraintEvaluation assemble_constraints(const EnergyFields& fields,
                                                           const EnergyRates& rates,

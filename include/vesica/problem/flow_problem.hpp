@@ -50,15 +50,15 @@ class FlowProblem {
   /// y with the positions and the order parameter of a start and first guesses of the algebraic
   /// unknowns.
   [[nodiscard]] virtual Eigen::VectorXd initial_values(const State& start) const = 0;
-  [[nodiscard]] virtual Fields values(const Eigen::VectorXd& y) const = 0;
+  [[nodiscard]] virtual Fields values(double time, const Eigen::VectorXd& y) const = 0;
   [[nodiscard]] virtual Fields rates(const Eigen::VectorXd& y,
                                      const Eigen::VectorXd& y_rate) const = 0;
   /// 1 where an unknown has a time derivative in the equations, 0 for algebraic unknowns.
   [[nodiscard]] virtual Eigen::VectorXd differential_mask() const = 0;
   /// Natural size of each unknown; errors are measured in it.
   [[nodiscard]] virtual Eigen::VectorXd units(const Scales& scales) const = 0;
-  /// Energy of the discretisation, where it has one of its own.
-  [[nodiscard]] virtual std::optional<EnergyParts> energy(const Eigen::VectorXd&) const {
+  /// Energy of the discretisation with the material at a time, where it has one of its own.
+  [[nodiscard]] virtual std::optional<EnergyParts> energy(double, const Eigen::VectorXd&) const {
     return std::nullopt;
   }
 
@@ -68,8 +68,9 @@ class FlowProblem {
                                                  const Eigen::VectorXd& y_rate) const = 0;
   /// A bordered matrix of the right pattern for `jacobian`.
   [[nodiscard]] virtual linalg::BorderedMatrix make_matrix() const = 0;
+  /// The arguments of `residual`, the weights and the matrix.
   virtual void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
-                        const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                        double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                         linalg::BorderedMatrix& matrix) const = 0;
 
   /// Coordinates that follow the surface: when it has moved far, the present surface becomes the

@@ -46,7 +46,9 @@ class RelaxationProblem final : public FlowProblem {
   [[nodiscard]] Eigen::Index num_nodal() const override { return layout_.num_nodal(); }
   [[nodiscard]] Eigen::Index num_multipliers() const override { return layout_.num_multipliers(); }
   [[nodiscard]] Eigen::VectorXd initial_values(const State& start) const override;
-  [[nodiscard]] Fields values(const Eigen::VectorXd& y) const override { return layout_.unpack(y); }
+  [[nodiscard]] Fields values(double, const Eigen::VectorXd& y) const override {
+    return layout_.unpack(y);
+  }
   [[nodiscard]] Fields rates(const Eigen::VectorXd&, const Eigen::VectorXd& y_rate) const override {
     return layout_.unpack(y_rate);
   }
@@ -61,9 +63,9 @@ class RelaxationProblem final : public FlowProblem {
 
   [[nodiscard]] linalg::BorderedMatrix make_matrix() const override;
 
-  /// The Jacobian at (y, y'), exact but for the recovered shape operator Q_h, which is nonlocal:
+  /// The Jacobian at (t, y, y'), exact but for the recovered shape operator Q_h, which is nonlocal:
   /// its value is used, its derivative is that of the elementwise shape operator.
-  void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
+  void jacobian(const EquationSettings& settings, const JacobianWeights& weights, double time,
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
 

@@ -6,7 +6,8 @@
 namespace vesica::problem {
 
 /// Natural units of a case. Tolerances and rates are given in them, so a run does not depend on the
-/// units of length and energy of its case file.
+/// units of length and energy of its case file. Of schedules the last value counts: it does not
+/// change during a run, and it is what the equilibrium belongs to.
 struct Scales {
   double length = 1;  ///< R_c (4.2), of the area target or, without one, of the start [length]
   double energy = 1;  ///< bending rigidity of phase 1 [energy]

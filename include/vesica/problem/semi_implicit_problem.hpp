@@ -18,6 +18,7 @@ namespace vesica::problem {
 struct SemiImplicitSettings {
   double time_step = 0;  ///< tau [time]
   double damping = 0;    ///< alpha of (3.4) [length^2/energy]
+  double time = 0;       ///< t^{m+1}, at which the material is taken [time]
 };
 
 /// Whether the tangential velocity is kept in the fields beta_1, beta_2 of (3.4) or eliminated as

@@ -37,17 +37,18 @@ class VariationalProblem final : public FlowProblem {
   [[nodiscard]] Eigen::Index num_multipliers() const override;
 
   [[nodiscard]] Eigen::VectorXd initial_values(const State& start) const override;
-  [[nodiscard]] Fields values(const Eigen::VectorXd& y) const override;
+  [[nodiscard]] Fields values(double time, const Eigen::VectorXd& y) const override;
   [[nodiscard]] Fields rates(const Eigen::VectorXd& y,
                              const Eigen::VectorXd& y_rate) const override;
   [[nodiscard]] Eigen::VectorXd differential_mask() const override;
   [[nodiscard]] Eigen::VectorXd units(const Scales& scales) const override;
-  [[nodiscard]] std::optional<EnergyParts> energy(const Eigen::VectorXd& y) const override;
+  [[nodiscard]] std::optional<EnergyParts> energy(double time,
+                                                  const Eigen::VectorXd& y) const override;
   [[nodiscard]] Eigen::VectorXd residual(const EquationSettings& settings, double time,
                                          const Eigen::VectorXd& y,
                                          const Eigen::VectorXd& y_rate) const override;
   [[nodiscard]] linalg::BorderedMatrix make_matrix() const override;
-  void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
+  void jacobian(const EquationSettings& settings, const JacobianWeights& weights, double time,
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
   /// A new reference when a normal has turned so far that its cosine with the direction of the node
@@ -56,7 +57,7 @@ class VariationalProblem final : public FlowProblem {
   bool renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) override;
 
  private:
-  [[nodiscard]] EnergyFields fields(const Eigen::VectorXd& y) const;
+  [[nodiscard]] EnergyFields fields(double time, const Eigen::VectorXd& y) const;
   [[nodiscard]] EnergyRates energy_rates(const Eigen::VectorXd& y_rate) const;
   [[nodiscard]] Multipliers multipliers(const Eigen::VectorXd& y) const;
   /// Component `component` of every node.

@@ -65,14 +65,14 @@ maximum = 5
   ASSERT_TRUE(config.phase);
   EXPECT_EQ(config.phase->directions, (std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}}));
   EXPECT_FALSE(config.phase->match_target);
-  EXPECT_EQ(config.material.bending_rigidity, (model::PhasePair{2, 2}));
-  EXPECT_EQ(config.material.gaussian_rigidity, (model::PhasePair{0.5, -0.5}));
+  EXPECT_EQ(config.material.bending_rigidity, (model::PhaseSchedules{2, 2}));
+  EXPECT_EQ(config.material.gaussian_rigidity, (model::PhaseSchedules{0.5, -0.5}));
   EXPECT_EQ(config.material.rigidity_ratio, 3.0);
   EXPECT_EQ(config.constraints.volume,
-            (model::Target{model::TargetKind::prescribed, {3, 2.5, 0, 1}}));
+            (model::Target{model::TargetKind::prescribed, model::Schedule::ramp(3, 2.5, 0, 1)}));
   EXPECT_EQ(config.constraints.area.kind, model::TargetKind::free);
   EXPECT_EQ(config.constraints.phase_difference,
-            (model::Target{model::TargetKind::prescribed, model::Ramp::constant(4)}));
+            (model::Target{model::TargetKind::prescribed, model::Schedule(4)}));
   EXPECT_TRUE(std::isinf(config.stop.end_time));
   EXPECT_EQ(config.damping.maximum, 5.0);
 }
@@ -118,18 +118,59 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"[material]\nline_tension = nan",
                  "case.toml:2:16: material.line_tension = nan: must be >= 0"},
         BadInput{"[material]\nline_tension = 'high'",
-                 "case.toml:2:16: material.line_tension = 'high': must be a number"},
+                 "case.toml:2:16: material.line_tension = 'high': must be a number, [from, to, t0, "
+                 "t1] or "
+                 "{ times = [...], values = [...], kind = ... }"},
         BadInput{"[material]\nbending_rigidity = [1, 0]",
                  "case.toml:2:20: material.bending_rigidity = [ 1, 0 ]: must be > 0"},
         BadInput{"[material]\nbending_rigidity = [1, 2, 3]",
-                 "case.toml:2:20: material.bending_rigidity = [ 1, 2, 3 ]: must be a number or an "
-                 "array [phase 1, phase 2]"},
+                 "case.toml:2:20: material.bending_rigidity = [ 1, 2, 3 ]: must be a number, "
+                 "[from, to, t0, t1], { times = [...], values = [...], kind = ... } or an array "
+                 "[phase 1, phase 2] of these"},
+        BadInput{
+            "[material]\nbending_rigidity = [1, [1, 2, 3]]",
+            "case.toml:2:20: material.bending_rigidity = [ 1, [ 1, 2, 3 ] ]: must be a number, "
+            "[from, to, t0, t1], { times = [...], values = [...], kind = ... } or an array "
+            "[phase 1, phase 2] of these"},
+        BadInput{"[material]\nbending_rigidity = [1, [1, 0, 0, 1]]",
+                 "case.toml:2:20: material.bending_rigidity = [ 1, [ 1, 0, 0, 1 ] ]: must be > 0"},
+        BadInput{
+            "[material]\nline_tension = ['initial', 2, 0, 1]",
+            "case.toml:2:16: material.line_tension = [ 'initial', 2, 0, 1 ]: must be a number, "
+            "[from, to, t0, t1] or { times = [...], values = [...], kind = ... }"},
+        BadInput{"[material]\nline_tension = { times = [0, 1], values = [1, 2, 3] }",
+                 "case.toml:2:16: material.line_tension = { times = [ 0, 1 ], values = [ 1, 2, 3 ] "
+                 "}: must have as many times as values"},
+        BadInput{
+            "[material]\nline_tension = { times = [0, 2, 1], values = [1, 2, 3] }",
+            "case.toml:2:16: material.line_tension = { times = [ 0, 2, 1 ], values = [ 1, 2, 3 "
+            "] }: must have ascending times"},
+        BadInput{"[material]\nline_tension = { times = [0, inf], values = [1, 2] }",
+                 "case.toml:2:16: material.line_tension = { times = [ 0, inf ], values = [ 1, 2 ] "
+                 "}: must be finite"},
+        BadInput{"[material]\nline_tension = { time = [0, 1], values = [1, 2] }",
+                 "case.toml:2:16: material.line_tension = { time = [ 0, 1 ], values = [ 1, 2 ] }: "
+                 "unknown key \"time\", did you mean \"times\"?"},
+        BadInput{"[material]\nline_tension = { times = [0, 1], values = [1, 2], kind = 'steps' }",
+                 "case.toml:2:16: material.line_tension.kind = 'steps': must be one of \"linear\", "
+                 "\"stages\"; did you mean \"stages\"?"},
+        BadInput{"[material]\nline_tension = [1, 2, 0, 1]\n[solver]\nmethod = 'minimize'",
+                 "case.toml:2:16: material.line_tension = [ 1, 2, 0, 1 ]: must be constant for "
+                 "solver.method = \"minimize\""},
+        BadInput{
+            "[constraints]\nvolume = ['initial', 2, 0, 1]\n[solver]\nmethod = 'minimize'",
+            "case.toml:2:10: constraints.volume = [ 'initial', 2, 0, 1 ]: must be constant for "
+            "solver.method = \"minimize\""},
+        BadInput{"[constraints]\nvolume = [2, 'initial', 0, 1]",
+                 "case.toml:2:10: constraints.volume = [ 2, 'initial', 0, 1 ]: must be a number, "
+                 "[from, to, t0, t1], { times = [...], values = [...], kind = ... }, \"initial\" "
+                 "(also as the first value) or \"free\""},
         BadInput{"[constraints]\nvolume = 'fixed'",
-                 "case.toml:2:10: constraints.volume = 'fixed': must be a number, an array [from, "
-                 "to, t0, t1], "
-                 "\"initial\" or \"free\""},
+                 "case.toml:2:10: constraints.volume = 'fixed': must be a number, [from, to, t0, "
+                 "t1], { times = [...], values = [...], kind = ... }, \"initial\" (also as the "
+                 "first value) or \"free\""},
         BadInput{"[constraints]\nvolume = [1, 2, 3, 2]",
-                 "case.toml:2:10: constraints.volume = [ 1, 2, 3, 2 ]: must have t0 <= t1"},
+                 "case.toml:2:10: constraints.volume = [ 1, 2, 3, 2 ]: must have t0 < t1"},
         BadInput{"[constraints]\nphase_fraction = 1.5",
                  "case.toml:2:18: constraints.phase_fraction = 1.5: must be between 0 and 1"},
         BadInput{"[solver]\nlinear_solver = 'umfpak'",
@@ -171,7 +212,7 @@ TEST(Config, OverridesReplaceAndAddValues) {
                                        "constraints.volume=[3, 2, 0, 1]", "title=two words"});
   EXPECT_EQ(config.solver.rtol, 1e-4);
   EXPECT_EQ(config.damping.kind, relax::DampingKind::fixed);
-  EXPECT_EQ(config.constraints.volume.ramp.to, 2);
+  EXPECT_EQ(config.constraints.volume.schedule.last(), 2);
   EXPECT_EQ(config.title, "two words");
 }
 
@@ -250,6 +291,51 @@ max_seconds = 10
             std::string::npos);
   EXPECT_NE(text.find("volume = [3.0, 2.5, 0.0, 1.0]"), std::string::npos);
   EXPECT_NE(text.find("gaussian_rigidity = [0.1, -1e-300]"), std::string::npos);
+}
+
+TEST(Config, QuantitiesMayChangeInTime) {
+  using model::Schedule;
+  using model::ScheduleKind;
+  const RunConfig config = read(R"(
+[material]
+bending_rigidity = [1, 2, 0, 0.5]
+spontaneous_curvature = [{ times = [0, 0.1], values = [0, -4] }, 0.5]
+gaussian_rigidity = [[0, 1, 0, 1], { times = [0, 1], values = [0, 2], kind = "stages" }]
+line_tension = { values = [1, 3, 2], times = [0, 1, 2], kind = "linear" }
+[constraints]
+volume = ["initial", 2.6, 0, 0.05]
+area = { times = [0, 1, 2], values = ["initial", 12, 11], kind = "stages" }
+)");
+  const auto& material = config.material;
+  const auto stiffer = Schedule::ramp(1, 2, 0, 0.5);
+  EXPECT_EQ(material.bending_rigidity, (model::PhaseSchedules{stiffer, stiffer}));
+  EXPECT_EQ(material.spontaneous_curvature,
+            (model::PhaseSchedules{Schedule::ramp(0, -4, 0, 0.1), 0.5}));
+  EXPECT_EQ(material.gaussian_rigidity,
+            (model::PhaseSchedules{Schedule::ramp(0, 1, 0, 1),
+                                   Schedule::points(ScheduleKind::stages, {0, 1}, {0, 2})}));
+  EXPECT_EQ(material.line_tension, Schedule::points(ScheduleKind::linear, {0, 1, 2}, {1, 3, 2}));
+  EXPECT_TRUE(config.constraints.volume.begins_at_start);
+  EXPECT_EQ(config.constraints.volume.schedule.value(0.05), 2.6);
+  EXPECT_TRUE(config.constraints.area.begins_at_start);
+  EXPECT_EQ(config.constraints.area.schedule.value(1.5), 12);
+}
+
+TEST(Config, QuantitiesThatChangeInTimeReadBackAsTheSame) {
+  const std::string text = to_toml(read(R"(
+[material]
+spontaneous_curvature = [{ times = [0, 0.1, 0.2], values = [0, -4, -3] }, 0.5]
+line_tension = { times = [0, 1], values = [1, 3], kind = "stages" }
+[constraints]
+volume = ["initial", 2.6, 0, 0.05]
+)"));
+  EXPECT_EQ(to_toml(read(text)), text);
+  for (const char* line :
+       {"spontaneous_curvature = [{ times = [0.0, 0.1, 0.2], values = [0.0, -4.0, -3.0], kind = "
+        "\"linear\" }, 0.5]\n",
+        "line_tension = { times = [0.0, 1.0], values = [1.0, 3.0], kind = \"stages\" }\n",
+        "volume = [\"initial\", 2.6, 0.0, 0.05]\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << text;
 }
 
 TEST(Config, EveryCaseOfTheRepositoryIsRead) {

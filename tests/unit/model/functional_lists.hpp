@@ -28,7 +28,7 @@ struct FunctionalName {
 };
 
 template <class Functional, class T>
-T density_of(const MaterialOptions& material, const SurfacePoint<T>& point) {
+T density_of(const Material& material, const SurfacePoint<T>& point) {
   if constexpr (requires { Functional::density(material, point); }) {
     return Functional::density(material, point);
   } else {
@@ -37,7 +37,7 @@ T density_of(const MaterialOptions& material, const SurfacePoint<T>& point) {
 }
 
 template <class Functional, class T>
-Variation<T> variation_of(const MaterialOptions& material, const SurfacePoint<T>& point) {
+Variation<T> variation_of(const Material& material, const SurfacePoint<T>& point) {
   if constexpr (requires { Functional::variation(material, point); }) {
     return Functional::variation(material, point);
   } else {
@@ -46,8 +46,8 @@ Variation<T> variation_of(const MaterialOptions& material, const SurfacePoint<T>
 }
 
 /// All constants different from each other and from zero.
-inline MaterialOptions generic_material() {
-  MaterialOptions material;
+inline Material generic_material() {
+  Material material;
   material.bending_rigidity = {1.5, 1.0};
   material.spontaneous_curvature = {-0.7, 1.1};
   material.gaussian_rigidity = {2.0, -0.6};

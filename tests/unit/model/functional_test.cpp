@@ -115,7 +115,7 @@ TYPED_TEST(EveryFunctional, OfASinglePhaseDoesNotDependOnItsLabel) {
 }
 
 TEST(BendingEnergyTest, OfASphereIsEightPiKForAnyRadius) {
-  MaterialOptions material;
+  Material material;
   material.bending_rigidity = {2.5, 2.5};
   for (const double radius : {0.3, 1.0, 7.0}) {
     const double density = BendingEnergy::density(material, sphere_point(radius, 1.0));
@@ -125,7 +125,7 @@ TEST(BendingEnergyTest, OfASphereIsEightPiKForAnyRadius) {
 }
 
 TEST(BendingEnergyTest, VanishesOnTheSphereThatTheSpontaneousCurvatureFits) {
-  MaterialOptions material;
+  Material material;
   material.spontaneous_curvature = {-2 / 0.7, 0};
   EXPECT_NEAR(BendingEnergy::density(material, sphere_point(0.7, 1.0)), 0, 1e-28);
   EXPECT_NEAR(BendingEnergy::variation(material, sphere_point(0.7, 1.0)).a, 0, 1e-13);
@@ -133,7 +133,7 @@ TEST(BendingEnergyTest, VanishesOnTheSphereThatTheSpontaneousCurvatureFits) {
 }
 
 TEST(GaussianEnergyTest, OfASphereIsFourPiK) {
-  MaterialOptions material;
+  Material material;
   material.gaussian_rigidity = {3, 1};
   for (const double radius : {0.3, 7.0}) {
     const double area = 4 * std::numbers::pi * radius * radius;
@@ -145,7 +145,7 @@ TEST(GaussianEnergyTest, OfASphereIsFourPiK) {
 }
 
 TEST(GaussianEnergyTest, HasNoVariationForEqualRigidities) {
-  MaterialOptions material;
+  Material material;
   material.gaussian_rigidity = {3, 3};
   const auto v = GaussianEnergy::variation(material, generic_point(0.3, 0.5, -0.9));
   EXPECT_EQ(std::abs(v.a) + norm(v.b) + std::abs(v.s) + norm(v.q), 0);
@@ -155,7 +155,7 @@ TEST(GaussianEnergyTest, HasNoVariationForEqualRigidities) {
 /// exponentially, so the rule is exact to rounding.
 TEST(LineEnergyTest, OfTheTanhProfileIsFourThirdsSigmaPerLength) {
   for (const double width : {0.05, 0.4}) {
-    MaterialOptions material;
+    Material material;
     material.line_tension = 1.7;
     material.interface_width = width;
     double energy = 0;

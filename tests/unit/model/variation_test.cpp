@@ -46,7 +46,7 @@ Example dumbbell(const PeriodicGrid& grid) {
 }
 
 template <class Functional>
-double integral(const MaterialOptions& material, const PeriodicGrid& grid, ProfileKind kind,
+double integral(const Material& material, const PeriodicGrid& grid, ProfileKind kind,
                 const Revolution& shape) {
   const SampledRevolution sampled(grid, kind, shape);
   const auto points = sampled.points();
@@ -59,8 +59,7 @@ double integral(const MaterialOptions& material, const PeriodicGrid& grid, Profi
 
 /// int a w + b . grad w + s eta + q . grad eta.
 template <class Functional>
-double first_variation(const MaterialOptions& material, const PeriodicGrid& grid,
-                       const Example& example) {
+double first_variation(const Material& material, const PeriodicGrid& grid, const Example& example) {
   const SampledRevolution sampled(grid, example.kind, example.shape);
   const auto points = sampled.points();
   const ArrayXd w_t = grid.differentiate(example.w);
@@ -78,7 +77,7 @@ double first_variation(const MaterialOptions& material, const PeriodicGrid& grid
 /// d/dtau at 0 of the functional along x + tau w nu, c + tau eta, c carried by the points: central
 /// differences of two steps, extrapolated, so the error is O(step^4).
 template <class Functional>
-double difference_quotient(const MaterialOptions& material, const PeriodicGrid& grid,
+double difference_quotient(const Material& material, const PeriodicGrid& grid,
                            const Example& example) {
   const SampledRevolution sampled(grid, example.kind, example.shape);
   const auto at = [&](double tau) {
@@ -93,8 +92,8 @@ double difference_quotient(const MaterialOptions& material, const PeriodicGrid& 
   return (4 * central(step) - central(2 * step)) / 3;
 }
 
-std::vector<MaterialOptions> materials() {
-  std::vector<MaterialOptions> list(4, generic_material());
+std::vector<Material> materials() {
+  std::vector<Material> list(4, generic_material());
   list[1].spontaneous_curvature = {0, 0};
   list[2].bending_rigidity = {1, 1};
   list[2].spontaneous_curvature = {2, -2};
@@ -141,7 +140,7 @@ TYPED_TEST(EveryVariation, IsTheDifferenceQuotientOnADumbbell) {
 TEST(SampledRevolutionTest, GivesAreaVolumeAndEnergyOfSphereAndTorus) {
   const PeriodicGrid grid(64);
   const ArrayXd one = ArrayXd::Ones(64);
-  const MaterialOptions material;
+  const Material material;
   const double pi = std::numbers::pi;
   const Revolution sphere{2 * grid.t.sin(), -2 * grid.t.cos(), one};
   EXPECT_NEAR(integral<Area>(material, grid, ProfileKind::sphere, sphere), 16 * pi, 1e-11);
@@ -159,7 +158,7 @@ TEST(SampledRevolutionTest, GivesAreaVolumeAndEnergyOfSphereAndTorus) {
 /// Gauss-Bonnet: constant k_g gives 2 pi chi.
 TEST(SampledRevolutionTest, GivesTheTopologicalGaussianEnergy) {
   const PeriodicGrid grid(192);
-  MaterialOptions material;
+  Material material;
   material.gaussian_rigidity = {1, 1};
   const auto torus = dented_torus(grid);
   const auto sphere = dumbbell(grid);

@@ -38,6 +38,18 @@ TEST_F(DiagnosticsOfASphere, HaveTheEnergiesOfPhaseOne) {
   EXPECT_DOUBLE_EQ(energy.total(), energy.bending + energy.gaussian);
 }
 
+TEST_F(DiagnosticsOfASphere, HaveTheMaterialOfTheTime) {
+  const double before = measured().energy.bending;
+  auto& k = case_.model.material.bending_rigidity.phase_1;
+  k = model::Schedule::ramp(3, 12, 0, 2);
+  EXPECT_EQ(measured().energy.bending, before);
+  case_.start.time = 2.0 / 3;
+  EXPECT_NEAR(measured().energy.bending, 2 * before, 1e-12 * before);
+  EXPECT_DOUBLE_EQ(nodal_fields(case_.model, case_.start).bending_energy_density[0], 3);
+  case_.start.time = 5;
+  EXPECT_NEAR(measured().energy.bending, 4 * before, 1e-12 * before);
+}
+
 TEST_F(DiagnosticsOfASphere, GiveConstraintErrorsRelativeToTheirTargets) {
   const auto diagnostics = measured();
   EXPECT_NEAR(*diagnostics.constraint_errors.volume, 0, 5e-5);

@@ -235,7 +235,7 @@ double exact_gaussian_energy(double a, double b, const model::PhasePair& k_g) {
 TEST(EnergyProblem, GivesTheGaussianEnergyOfAnEllipsoidToThirdOrder) {
   model::Model model;
   model.material.gaussian_rigidity = {1.5, -0.5};
-  const double exact = exact_gaussian_energy(1, 1.6, model.material.gaussian_rigidity);
+  const double exact = exact_gaussian_energy(1, 1.6, model.material.gaussian_rigidity.at(0));
   std::array<double, 2> errors{};
   for (std::size_t level = 0; level < 2; ++level) {
     const auto surface = test::make_ellipsoid({1, 1, 1.6}, level == 0 ? 6 : 12);

@@ -64,9 +64,39 @@ inline model::Model two_phase_model() {
   model.material.line_tension = 1.2;
   model.material.interface_width = 0.4;
   model.material.kinetic_coefficient = 0.3;
-  model.targets.volume = model::Ramp{5, 4, 0, 1};
-  model.targets.area = model::Ramp::constant(14);
-  model.targets.phase_difference = model::Ramp{1, 2, 0.2, 0.8};
+  model.targets.volume = model::Schedule::ramp(5, 4, 0, 1);
+  model.targets.area = model::Schedule(14);
+  model.targets.phase_difference = model::Schedule::ramp(1, 2, 0.2, 0.8);
+  return model;
+}
+
+/// The same with every material parameter on its way.
+inline model::Model model_in_motion() {
+  using model::Schedule;
+  auto model = two_phase_model();
+  auto& material = model.material;
+  material.bending_rigidity = {Schedule::ramp(1.5, 3, 0, 1), Schedule::ramp(2, 0.9, 0, 0.5)};
+  material.spontaneous_curvature = {Schedule::ramp(0, -3, 0, 0.8), 0.5};
+  material.gaussian_rigidity = {0.7, Schedule::ramp(0.7, -0.4, 0.2, 0.6)};
+  material.line_tension =
+      Schedule::points(model::ScheduleKind::stages, {0, 0.3, 0.6}, {0.1, 1.2, 4});
+  material.interface_width = Schedule::ramp(1, 0.2, 0, 1);
+  material.kinetic_coefficient = Schedule::ramp(1, 0, 0, 1);
+  return model;
+}
+
+/// The material that `model` has at `time`, at all times.
+inline model::Model with_material_at(model::Model model, double time) {
+  const auto now = model.material.at(time);
+  const auto pair = [](const model::PhasePair& k) {
+    return model::PhaseSchedules{k.phase_1, k.phase_2};
+  };
+  model.material = {.bending_rigidity = pair(now.bending_rigidity),
+                    .spontaneous_curvature = pair(now.spontaneous_curvature),
+                    .gaussian_rigidity = pair(now.gaussian_rigidity),
+                    .line_tension = now.line_tension,
+                    .interface_width = now.interface_width,
+                    .kinetic_coefficient = now.kinetic_coefficient};
   return model;
 }
 
@@ -80,10 +110,12 @@ inline EquationCase make_equation_case(std::string name, const model::Model& mod
   return c;
 }
 
-/// The cases of the Jacobian tests: all terms; constraints left free; one phase.
+/// The cases of the Jacobian tests: all terms; a material in motion; constraints left free; one
+/// phase.
 inline std::vector<EquationCase> equation_cases() {
   std::vector<EquationCase> cases;
   cases.push_back(make_equation_case("two phases", two_phase_model()));
+  cases.push_back(make_equation_case("two phases, material in motion", model_in_motion()));
   auto free_area = two_phase_model();
   free_area.targets.area.reset();
   cases.push_back(make_equation_case("two phases, area free", free_area));

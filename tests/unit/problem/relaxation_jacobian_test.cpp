@@ -57,7 +57,7 @@ Eigen::MatrixXd combined(const EquationCase& c, const Differences& d,
 Eigen::MatrixXd assembled(const EquationCase& c, const JacobianWeights& weights) {
   const auto problem = c.problem();
   auto matrix = problem.make_matrix();
-  problem.jacobian(c.settings, weights, c.y, c.y_rate, matrix);
+  problem.jacobian(c.settings, weights, c.time, c.y, c.y_rate, matrix);
   return linalg::to_dense(matrix);
 }
 
@@ -182,7 +182,8 @@ class SurrogateResidual {
     const auto& layout = problem_.layout();
     Eigen::VectorXd result = problem_.residual(case_.settings, case_.time, y, y_rate);  // for (e)
     result.head(layout.num_nodal()).setZero();
-    PointSettings point{problem_.model(), case_.settings.damping, {}};
+    const auto physics = problem_.model().at(case_.time);
+    PointSettings point{physics, case_.settings.damping, {}};
     for (int i = 0; i < model::num_constraints; ++i) {
       if (layout.multiplier(i) >= 0)
         point.multipliers[static_cast<std::size_t>(i)] =

@@ -95,16 +95,25 @@ TEST(RelaxationResidual, DoesNotDependOnTheNumbersOfNodesAndTriangles) {
   }
 }
 
+TEST(RelaxationProblem, HasTheMaterialOfTheTime) {
+  const auto moving = make_equation_case("in motion", model_in_motion());
+  const auto frozen =
+      make_equation_case("frozen", with_material_at(model_in_motion(), moving.time));
+  EXPECT_EQ(residual(moving), residual(frozen));
+  const auto start = make_equation_case("at the start", with_material_at(model_in_motion(), 0));
+  EXPECT_GT((residual(moving) - residual(start)).norm(), 1);
+}
+
 TEST(RelaxationProblem, GivesTheSameToTheLastBitOnAnyNumberOfThreads) {
   const auto c = make_equation_case("two phases", two_phase_model());
   const auto alone = c.problem(1);
   auto matrix = alone.make_matrix();
-  alone.jacobian(c.settings, {1, 10}, c.y, c.y_rate, matrix);
+  alone.jacobian(c.settings, {1, 10}, c.time, c.y, c.y_rate, matrix);
   for (const int threads : {2, 5}) {
     const auto problem = c.problem(threads);
     EXPECT_EQ(residual(c, threads), residual(c, 1));
     auto other = problem.make_matrix();
-    problem.jacobian(c.settings, {1, 10}, c.y, c.y_rate, other);
+    problem.jacobian(c.settings, {1, 10}, c.time, c.y, c.y_rate, other);
     EXPECT_EQ(other.block.values, matrix.block.values);
     EXPECT_EQ(other.columns, matrix.columns);
     EXPECT_EQ(other.rows, matrix.rows);

@@ -40,6 +40,7 @@ FlowCase make_flow_case(std::string name, const model::Model& model) {
 std::vector<FlowCase> flow_cases() {
   std::vector<FlowCase> cases;
   cases.push_back(make_flow_case("two phases", two_phase_model()));
+  cases.push_back(make_flow_case("two phases, material in motion", model_in_motion()));
   auto free_area = two_phase_model();
   free_area.targets.area.reset();
   cases.push_back(make_flow_case("two phases, area free", free_area));
@@ -79,7 +80,7 @@ TEST(VariationalJacobian, IsTheDifferenceOfTheResidualInEveryBlock) {
                                  weights.value, weights.rate));
         const EquationSettings settings{1, 30, form};
         auto matrix = c.problem->make_matrix();
-        c.problem->jacobian(settings, weights, c.y, c.y_rate, matrix);
+        c.problem->jacobian(settings, weights, time, c.y, c.y_rate, matrix);
         const Eigen::MatrixXd jacobian = linalg::to_dense(matrix);
         const Eigen::MatrixXd expected = differences(c, settings, weights);
         const auto nodal = c.problem->num_nodal();
@@ -98,15 +99,33 @@ TEST(VariationalJacobian, IsTheDifferenceOfTheResidualInEveryBlock) {
   }
 }
 
+TEST(VariationalProblem, HasTheMaterialOfTheTime) {
+  const auto moving = make_flow_case("in motion", model_in_motion());
+  const auto frozen = make_flow_case("frozen", with_material_at(model_in_motion(), time));
+  const auto start = make_flow_case("at the start", with_material_at(model_in_motion(), 0));
+  const auto residual = [&](const FlowCase& c) {
+    return c.problem->residual({}, time, moving.y, moving.y_rate);
+  };
+  EXPECT_EQ(residual(moving), residual(frozen));
+  EXPECT_GT((residual(moving) - residual(start)).norm(), 1);
+  EXPECT_EQ(moving.problem->energy(time, moving.y)->total(),
+            frozen.problem->energy(time, moving.y)->total());
+  EXPECT_EQ(moving.problem->values(time, moving.y).mean_curvature,
+            frozen.problem->values(time, moving.y).mean_curvature);
+  EXPECT_GT(std::abs(moving.problem->energy(time, moving.y)->total() -
+                     start.problem->energy(time, moving.y)->total()),
+            1);
+}
+
 TEST(VariationalProblem, HasTheEnergyOfItsSurface) {
   const auto c = make_flow_case("two phases", two_phase_model());
   const auto& energy_problem = c.problem->energy_problem();
-  const auto fields = c.problem->values(c.y);
+  const auto fields = c.problem->values(time, c.y);
   const double expected =
-      energy_problem.energy(energy_problem.fields(fields.positions, fields.order_parameter))
+      energy_problem.energy(energy_problem.fields(fields.positions, fields.order_parameter, time))
           .total();
   ASSERT_GT(std::abs(expected), 1);
-  EXPECT_NEAR(c.problem->energy(c.y)->total(), expected, 1e-12 * std::abs(expected));
+  EXPECT_NEAR(c.problem->energy(time, c.y)->total(), expected, 1e-12 * std::abs(expected));
 }
 
 TEST(VariationalProblem, KeepsSurfaceAndNormalVelocityWhenTheReferenceIsRenewed) {
@@ -120,11 +139,11 @@ TEST(VariationalProblem, KeepsSurfaceAndNormalVelocityWhenTheReferenceIsRenewed)
   // r = 1 + 2.5 z^2 turns the normals of the sphere by up to 48 degrees
   for (Eigen::Index i = 0; i < c.start.values.positions.rows(); ++i)
     c.y[4 * i + 3] = 2.5 * std::pow(c.start.values.positions(i, 2), 2);
-  const auto before = c.problem->values(c.y);
+  const auto before = c.problem->values(time, c.y);
   const auto velocity = c.problem->rates(c.y, c.y_rate).positions;
   const mesh::Positions normals = nodal_normals(*c.start.triangulation, before.positions);
   ASSERT_TRUE(c.problem->renew_coordinates(c.y, c.y_rate));
-  const auto after = c.problem->values(c.y);
+  const auto after = c.problem->values(time, c.y);
   EXPECT_LT((after.positions - before.positions).norm(), 1e-14);
   EXPECT_LT((after.mean_curvature - before.mean_curvature).norm(), 1e-12);
   const auto renewed = c.problem->rates(c.y, c.y_rate).positions;

@@ -81,6 +81,30 @@ TEST(Remesh, StaysNearTheLargestNumberOfNodes) {
   EXPECT_NEAR(changed->triangulation->num_nodes(), 1500, 375);
 }
 
+TEST(Remesh, InTheMiddleOfARampGoesOnWithIt) {
+  auto c = test::table_1_case(2);
+  const double volume = c.model.targets.volume->last();
+  c.model.targets.volume = model::Schedule::ramp(volume, 0.9 * volume, 0, 0.04);
+  c.model.material.line_tension = model::Schedule::ramp(1, 2, 0, 0.04);
+  auto stepper = solve::make_stepper({}, c.model, c.start);
+  solve::StepReport report;
+  while (stepper->state().time < 0.02) report = stepper->step(0.02);
+  const auto before = problem::measure(c.model, stepper->state());
+  ASSERT_LT(std::abs(*before.constraint_errors.volume), 5e-3);
+  auto changed = remeshed(c.model, stepper->state(), request());
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_NEAR(*problem::measure(c.model, *changed).constraint_errors.volume,
+              *before.constraint_errors.volume, 1e-10);
+  stepper = solve::restart_stepper({}, c.model, std::move(*changed), {0.3 * report.step_size});
+  while (stepper->state().time < 0.08) {
+    report = stepper->step(0.08);
+    ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+    const auto error = problem::measure(c.model, stepper->state()).constraint_errors.volume;
+    EXPECT_LT(std::abs(*error), 5e-3) << "t = " << stepper->state().time;
+  }
+  EXPECT_LT(std::abs(*problem::measure(c.model, stepper->state()).constraint_errors.volume), 5e-4);
+}
+
 /// Asks for one new mesh after a step, when a step fails, or at the end.
 class OneRemesh final : public Controller {
  public:

@@ -76,13 +76,27 @@ TEST_F(StationarityTest, CountsTheStepsWithoutNewtonIterations) {
 }
 
 TEST_F(StationarityTest, DoesNotRestWhileATargetMoves) {
-  model_.targets.volume = model::Ramp{1, 2, 0, 10};
+  model_.targets.volume = model::Schedule::ramp(1, 2, 0, 10);
   options_.rest_steps = 1;
   Stationarity criterion(options_, model_);
   state_.time = 5;
   (void)criterion.is_at_rest(view(1e-4, 20));
   EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));
   state_.time = 10;
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));  // the last step still followed it
+  state_.time = 10.1;
+  EXPECT_TRUE(criterion.is_at_rest(view(1e-4, 20)));
+}
+
+TEST_F(StationarityTest, DoesNotRestBeforeTheLastStageOfTheMaterial) {
+  model_.material.line_tension =
+      model::Schedule::points(model::ScheduleKind::stages, {0, 1, 2}, {1, 2, 3});
+  options_.rest_steps = 1;
+  Stationarity criterion(options_, model_);
+  state_.time = 2;
+  (void)criterion.is_at_rest(view(1e-4, 20));
+  EXPECT_FALSE(criterion.is_at_rest(view(1e-4, 20)));
+  state_.time = 2.1;
   EXPECT_TRUE(criterion.is_at_rest(view(1e-4, 20)));
 }
 

@@ -85,13 +85,13 @@ TEST(CeresStepper, TakesTheSameStepsInOtherUnits) {
   const double energy = 1e5;
   auto& material = scaled.model.material;
   material.bending_rigidity = {1.5 * energy, energy};
-  material.line_tension *= energy / length;
-  material.interface_width *= length;
-  material.kinetic_coefficient *= length;
+  material.line_tension = material.line_tension.scaled(energy / length);
+  material.interface_width = material.interface_width.scaled(length);
+  material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
   auto& targets = scaled.model.targets;
-  targets.volume = model::Ramp::constant(targets.volume->to * length * length * length);
-  targets.area = model::Ramp::constant(targets.area->to * length * length);
-  targets.phase_difference = model::Ramp::constant(targets.phase_difference->to * length * length);
+  targets.volume = model::Schedule(targets.volume->last() * length * length * length);
+  targets.area = model::Schedule(targets.area->last() * length * length);
+  targets.phase_difference = model::Schedule(targets.phase_difference->last() * length * length);
   scaled.start.values.positions *= length;
   const auto here = test::run_case(c, minimize());
   const auto there = test::run_case(scaled, minimize());
@@ -161,7 +161,7 @@ TEST(CeresStepper, SaysThatConstraintsCannotBeMetAndKeepsAGoodState) {
 
 TEST(CeresStepper, RefusesARampedTarget) {
   auto c = prolate_case(3.35);
-  c.model.targets.volume = model::Ramp{3.5, 3.35, 0, 1};
+  c.model.targets.volume = model::Schedule::ramp(3.5, 3.35, 0, 1);
   EXPECT_THROW((void)make_stepper(minimize(), c.model, c.start), ConfigError);
 }
 

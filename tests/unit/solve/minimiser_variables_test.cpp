@@ -23,7 +23,7 @@ model::Model two_phase_model() {
   model.material.gaussian_rigidity = {0.7, -0.4};
   model.material.line_tension = 1.2;
   model.material.interface_width = 0.4;
-  model.targets = {model::Ramp::constant(5), model::Ramp::constant(14), model::Ramp::constant(1)};
+  model.targets = {model::Schedule(5), model::Schedule(14), model::Schedule(1)};
   return model;
 }
 
@@ -145,7 +145,7 @@ TEST_F(MinimiserVariables, ThePenaltyHasNoLargeCurvatureInAnyDirection) {
 
 TEST_F(MinimiserVariables, RefusesATargetThatChangesInTime) {
   auto ramped = model_;
-  ramped.targets.volume = model::Ramp{5, 4, 0, 1};
+  ramped.targets.volume = model::Schedule::ramp(5, 4, 0, 1);
   try {
     const ConstraintSet constraints(ramped, scales_);
     FAIL() << "accepted";

@@ -57,8 +57,8 @@ TEST_P(SemiImplicitStepperOf, RelaxesASinglePhaseVesicle) {
   const auto ellipsoid = test::make_ellipsoid({1.3, 1, 0.9}, 2);
   auto vesicle = test::single_phase_case(ellipsoid, 0, 0);
   const auto start = problem::measure(vesicle.model, vesicle.start);
-  vesicle.model.targets.volume = model::Ramp::constant(start.volume);
-  vesicle.model.targets.area = model::Ramp::constant(start.area);
+  vesicle.model.targets.volume = model::Schedule(start.volume);
+  vesicle.model.targets.area = model::Schedule(start.area);
   const auto stepper = stepper_for(vesicle, semi_implicit_options(1e-3, GetParam()));
   double energy = infinity;
   for (int i = 0; i < 20; ++i) {
@@ -88,7 +88,7 @@ TEST_P(SemiImplicitStepperOf, LeavesAFreeQuantityFree) {
 
 TEST_P(SemiImplicitStepperOf, FollowsARampedTarget) {
   auto vesicle = test::table_1_case(1);
-  vesicle.model.targets.volume = model::Ramp{2.8, 2.7, 2 * tau, 6 * tau};
+  vesicle.model.targets.volume = model::Schedule::ramp(2.8, 2.7, 2 * tau, 6 * tau);
   const auto stepper = stepper_for(vesicle, semi_implicit_options(tau, GetParam()));
   for (const double volume : {2.8, 2.8, 2.775, 2.75, 2.725, 2.7, 2.7}) {
     ASSERT_EQ(stepper->step(infinity).status, StepStatus::accepted);
@@ -151,7 +151,8 @@ TEST(SemiImplicitStepper, CountsItsWork) {
 
 TEST(SemiImplicitStepper, ReportsTroubleAndKeepsTheLastGoodState) {
   auto vesicle = test::table_1_case(1);
-  vesicle.model.targets.volume = model::Ramp{2.88, 30, 2 * tau, 3 * tau};  // beyond any surface
+  vesicle.model.targets.volume =
+      model::Schedule::ramp(2.88, 30, 2 * tau, 3 * tau);  // beyond any surface
   const auto stepper = stepper_for(vesicle, semi_implicit_options(tau));
   ASSERT_EQ(stepper->step(infinity).status, StepStatus::accepted);
   ASSERT_EQ(stepper->step(infinity).status, StepStatus::accepted);

@@ -119,13 +119,13 @@ RelaxationCase in_units(const RelaxationCase& c, double length, double energy) {
   result.start.values.positions *= length;
   auto& material = result.model.material;
   material.bending_rigidity = {1.5 * energy, energy};
-  material.line_tension *= energy / length;
-  material.interface_width *= length;
-  material.kinetic_coefficient *= length;
+  material.line_tension = material.line_tension.scaled(energy / length);
+  material.interface_width = material.interface_width.scaled(length);
+  material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
   auto& targets = result.model.targets;
-  targets.volume = model::Ramp::constant(targets.volume->to * length * length * length);
-  targets.area = model::Ramp::constant(targets.area->to * length * length);
-  targets.phase_difference = model::Ramp::constant(targets.phase_difference->to * length * length);
+  targets.volume = model::Schedule(targets.volume->last() * length * length * length);
+  targets.area = model::Schedule(targets.area->last() * length * length);
+  targets.phase_difference = model::Schedule(targets.phase_difference->last() * length * length);
   return result;
 }
 
@@ -217,8 +217,8 @@ TEST(IdaStepper, CarriesNoPhaseFieldForOnePhase) {
 
 TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
   auto c = test::table_1_case(2);
-  const double volume = c.model.targets.volume->to;
-  c.model.targets.volume = model::Ramp{volume, 0.97 * volume, 2e-3, 6e-3};
+  const double volume = c.model.targets.volume->last();
+  c.model.targets.volume = model::Schedule::ramp(volume, 0.97 * volume, 2e-3, 6e-3);
   SolverOptions options;
   options.rtol = 1e-4;
   // The error test allows displacements of rtol 2 R_c a step, that is 9e-4 of the volume, and the

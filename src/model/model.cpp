@@ -1,0 +1,56 @@
+#include "vesica/model/model.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace vesica::model {
+namespace {
+
+/// Collects the schedules among the fields of the material.
+struct CollectSchedules {
+  std::vector<NamedSchedule>& result;
+
+  void operator()(const Field& field, const Schedule& schedule) const {
+    result.push_back({"material", field.name, schedule});
+  }
+  void operator()(const Field& field, const PhaseSchedules& pair) const {
+    (*this)(field, pair.phase_1);
+    (*this)(field, pair.phase_2);
+  }
+  void operator()(const Field&, const std::optional<double>&) const {}
+};
+
+}  // namespace
+
+std::vector<NamedSchedule> schedules_of(const Model& model) {
+  std::vector<NamedSchedule> result;
+  MaterialOptions::fields(model.material, CollectSchedules{result});
+  const auto add = [&result](std::string_view key, const std::optional<Schedule>& target) {
+    if (target) result.push_back({"constraints", key, *target});
+  };
+  add("volume", model.targets.volume);
+  add("area", model.targets.area);
+  add("phase_difference", model.targets.phase_difference);
+  return result;
+}
+
+double Model::next_kink(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const auto& named : schedules_of(*this))
+    next = std::min(next, named.schedule.next_kink(time));
+  return next;
+}
+
+bool Model::jumps_at(double time) const {
+  const auto schedules = schedules_of(*this);
+  return std::any_of(schedules.begin(), schedules.end(),
+                     [&](const auto& named) { return named.schedule.jumps_at(time); });
+}
+
+double Model::rests_after() const {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const auto& named : schedules_of(*this)) last = std::max(last, named.schedule.rests_after());
+  return last;
+}
+
+}  // namespace vesica::model
