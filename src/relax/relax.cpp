@@ -186,22 +186,24 @@ class Run {
   /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
     const auto report = stepped([&] { return stepper_.current->finish(); });
-    if (report.status == solve::StepStatus::accepted) {
+    const bool is_finished = report.status == solve::StepStatus::accepted;
+    if (is_finished) {
       report_ = report;
       measure();
     }
+    const std::string trouble = is_finished ? "" : "; " + report.reason;
     if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
       return std::nullopt;
     }
     if (report_.gradient) {
       return Stop{RunStatus::converged,
-                  fmt::format("distance to the minimum {:.2e} below {:g}, constraints met",
-                              *report_.gradient, stop_.gradient)};
+                  fmt::format("distance to the minimum {:.2e} below {:g}, constraints met{}",
+                              *report_.gradient, stop_.gradient, trouble)};
     }
     return Stop{
         RunStatus::converged,
-        fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met",
-                    diagnostics_.velocity.normal_rigid_free, stop_.normal_velocity)};
+        fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met{}",
+                    diagnostics_.velocity.normal_rigid_free, stop_.normal_velocity, trouble)};
   }
 
   Outcome conclude(const Stop& end) {

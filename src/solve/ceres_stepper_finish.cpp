@@ -44,7 +44,7 @@ StepReport CeresStepper::polish() {
     if (equilibrium->report.is_converged) {
       take(*equilibrium);
     } else {
-      trouble = "polish: Newton's method does not converge";
+      trouble = no_equilibrium_text(equilibrium->report);
     }
   } catch (const RecoverableError& error) {
     trouble = fmt::format("polish: {}", error.what());
@@ -53,9 +53,7 @@ StepReport CeresStepper::polish() {
   auto result = report(status, std::move(trouble));
   if (!equilibrium) return result;
   result.counts += equilibrium->counts;
-  auto seconds = equilibrium->seconds;
-  seconds.total = 0;  // in the total of the stepper
-  result.seconds += seconds;
+  result.seconds += equilibrium->seconds;
   result.polish = equilibrium->report;
   return result;
 }

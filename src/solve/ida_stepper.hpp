@@ -58,6 +58,8 @@ class IdaStepper final : public Stepper {
   [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;
   [[nodiscard]] StepReport polish_weak_form();
   [[nodiscard]] StepReport polish_energy();
+  [[nodiscard]] StepReport polish_report(const PolishReport& polish, const SolverCounts& counts,
+                                         const SolverSeconds& seconds);
   void configure_ida();
   void configure_linear_solver();
   [[nodiscard]] Eigen::VectorXd error_tolerances() const;

@@ -74,6 +74,7 @@ StepReport IdaStepper::polish_weak_form() {
   GaugedRelaxation gauged(state_, model, options_.threads);
   NewtonSystem system(gauged, options_.linear_solver);
   const Eigen::VectorXd weights = (2 * options_.rtol * gauged.units(scales_)).cwiseInverse();
+  problem::State polished = state_;
   Eigen::VectorXd y = gauged.initial_values(state_);
   PolishReport polish;
   double size = last_step_size();
@@ -87,34 +88,37 @@ StepReport IdaStepper::polish_weak_form() {
     const Eigen::VectorXd rates = step.rates(*next);
     y = *next;
     ++polish.iterations;
-    state_.values = gauged.values(step.time, y);
-    state_.rates = gauged.rates(y, rates);
-    polish.gradient = relative_force(problem::measure(model, state_));
+    polished.values = gauged.values(y);
+    polished.rates = gauged.rates(y, rates);
+    polish.gradient = relative_force(problem::measure(model, polished));
     polish.is_converged = polish.gradient < polished_gradient;
     size = std::min(polish_step_growth * size, largest_polish_step * scales_.time());
   }
-  polish.curvature = lowest_curvature(options_, model, state_);
-  auto result = report(StepStatus::accepted, {});
-  result.counts += system.counts();
-  result.seconds += system.seconds();
-  result.polish = polish;
-  return result;
+  if (polish.is_converged) {
+    state_ = std::move(polished);
+    polish.curvature = lowest_curvature(options_, model, state_);
+  }
+  return polish_report(polish, system.counts(), system.seconds());
 }
 
 StepReport IdaStepper::polish_energy() {
   const auto equilibrium =
       find_equilibrium(options_, problem_->model(), state_, state_.values.positions);
-  auto result = report(StepStatus::accepted, {});
-  result.counts += equilibrium.counts;
-  result.seconds += equilibrium.seconds;
-  result.polish = equilibrium.report;
-  if (!equilibrium.report.is_converged) {
-    result.status = StepStatus::failed;
-    result.reason = "polish: Newton's method does not converge";
-    return result;
+  if (equilibrium.report.is_converged) {
+    state_ = equilibrium.state;
+    polished_energy_ = equilibrium.energy;
   }
-  state_ = equilibrium.state;
-  polished_energy_ = equilibrium.energy;
+  return polish_report(equilibrium.report, equilibrium.counts, equilibrium.seconds);
+}
+
+/// With the work of the polish; failed when that found no equilibrium.
+StepReport IdaStepper::polish_report(const PolishReport& polish, const SolverCounts& counts,
+                                     const SolverSeconds& seconds) {
+  auto result = polish.is_converged ? report(StepStatus::accepted, {})
+                                    : report(StepStatus::failed, no_equilibrium_text(polish));
+  result.counts += counts;
+  result.seconds += seconds;
+  result.polish = polish;
   return result;
 }
 

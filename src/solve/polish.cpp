@@ -1,7 +1,11 @@
 #include "vesica/solve/polish.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "newton_system.hpp"
 #include "vesica/problem/scales.hpp"
@@ -44,7 +48,6 @@ class Optimality {
   [[nodiscard]] const problem::VariationalProblem& problem() const { return problem_; }
   [[nodiscard]] const NewtonSystem& system() const { return system_; }
   [[nodiscard]] const Eigen::VectorXd& y() const { return y_; }
-  [[nodiscard]] double time() const { return time_; }
 
   [[nodiscard]] PolishReport solve();
   [[nodiscard]] Curvature lowest_curvature();
@@ -62,7 +65,8 @@ class Optimality {
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& y) {
     return system_.residual(at_rest(), time_, y, rest_);
   }
-  [[nodiscard]] Errors errors(const Eigen::VectorXd& residual) const;
+  [[nodiscard]] double gradient_scale() const;
+  [[nodiscard]] Errors errors(const Eigen::VectorXd& residual, double scale) const;
   [[nodiscard]] double allowed_fraction(const Eigen::VectorXd& change) const;
   [[nodiscard]] Eigen::VectorXd metric_times(const linalg::BorderedMatrix& metric,
                                              const Eigen::VectorXd& z) const;
@@ -75,16 +79,18 @@ class Optimality {
   Eigen::VectorXd rest_;
 };
 
-Optimality::Errors Optimality::errors(const Eigen::VectorXd& residual) const {
-  const auto nodal = problem_.num_nodal();
+/// |dE|, or its natural unit where that is more.
+double Optimality::gradient_scale() const {
   Eigen::VectorXd without_multipliers = y_;
   without_multipliers.tail(problem_.num_multipliers()).setZero();
-  const double scale =
-      problem_.residual(at_rest(), time_, without_multipliers, rest_).head(nodal).norm();
-  const double natural = scales_.energy / scales_.length;
-  Errors result;
-  result.gradient = residual.head(nodal).norm() / std::max(scale, natural);
+  const auto gradient = problem_.residual(at_rest(), time_, without_multipliers, rest_);
+  return std::max(gradient.head(problem_.num_nodal()).norm(), scales_.energy / scales_.length);
+}
+
+Optimality::Errors Optimality::errors(const Eigen::VectorXd& residual, double scale) const {
   const double length = std::min(1.0, scales_.length);
+  Errors result;
+  result.gradient = residual.head(problem_.num_nodal()).norm() / scale;
   result.constraint = residual.tail(problem_.num_multipliers()).lpNorm<Eigen::Infinity>() /
                       (length * length * length);
   return result;
@@ -100,7 +106,8 @@ double Optimality::allowed_fraction(const Eigen::VectorXd& change) const {
 PolishReport Optimality::solve() {
   PolishReport report;
   Eigen::VectorXd now = residual(y_);
-  Errors error = errors(now);
+  double scale = gradient_scale();
+  Errors error = errors(now, scale);
   while (!error.are_small() && report.iterations < max_iterations) {
     ++report.iterations;
     system_.set_up(at_rest(), {1, 0}, time_, y_, rest_);
@@ -110,7 +117,7 @@ PolishReport Optimality::solve() {
     for (int halving = 0; halving < max_halvings && !is_better; ++halving, fraction /= 2) {
       const Eigen::VectorXd trial = y_ - fraction * change;
       const Eigen::VectorXd there = residual(trial);
-      const Errors trial_error = errors(there);
+      const Errors trial_error = errors(there, scale);
       is_better = trial_error.size() < error.size();
       if (!is_better) continue;
       y_ = trial;
@@ -118,6 +125,7 @@ PolishReport Optimality::solve() {
       error = trial_error;
     }
     if (!is_better) break;
+    scale = gradient_scale();
   }
   report.gradient = error.gradient;
   report.is_converged = error.gradient < 1e-8 && error.constraint < 1e-9;
@@ -127,15 +135,59 @@ PolishReport Optimality::solve() {
 /// The metric acts on displacements and order parameter only.
 Eigen::VectorXd Optimality::metric_times(const linalg::BorderedMatrix& metric,
                                          const Eigen::VectorXd& z) const {
-  Eigen::VectorXd masked = z.cwiseProduct(problem_.differential_mask());
-  masked.tail(problem_.num_multipliers()).setZero();
-  Eigen::VectorXd product = metric.multiply(masked).cwiseProduct(problem_.differential_mask());
-  product.tail(problem_.num_multipliers()).setZero();
-  return product;
+  const Eigen::VectorXd mask = problem_.differential_mask();
+  return metric.multiply(z.cwiseProduct(mask)).cwiseProduct(mask);
 }
 
+/// Lanczos' method with full reorthogonalisation: a basis of the Krylov space, orthonormal in the
+/// metric, and the operator projected on it.
+class KrylovBasis {
+ public:
+  /// Takes z, of length one after division, as the next vector; false when z is zero.
+  bool add(const Eigen::VectorXd& z, const Eigen::VectorXd& metric_times_z) {
+    const double length = std::sqrt(z.dot(metric_times_z));
+    if (!(length > 0)) return false;
+    vectors_.push_back(z / length);
+    products_.push_back(metric_times_z / length);
+    return true;
+  }
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(vectors_.size()); }
+  [[nodiscard]] const Eigen::VectorXd& last() const { return vectors_.back(); }
+
+  /// Takes the components in the basis out of the image of the last vector.
+  void project(Eigen::VectorXd& image) {
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      for (std::size_t i = 0; i < vectors_.size(); ++i) {
+        const double coefficient = products_[i].dot(image);
+        projected_(static_cast<Eigen::Index>(i), size() - 1) += coefficient;
+        image -= coefficient * vectors_[i];
+      }
+    }
+  }
+
+  /// The coefficients fill the upper triangle of a symmetric matrix.
+  [[nodiscard]] Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen() const {
+    const Eigen::MatrixXd square =
+        projected_.topLeftCorner(size(), size()).selfadjointView<Eigen::Upper>();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(square);
+  }
+
+  [[nodiscard]] Eigen::VectorXd combine(const Eigen::VectorXd& coefficients) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(last().size());
+    for (std::size_t i = 0; i < vectors_.size(); ++i)
+      sum += coefficients[static_cast<Eigen::Index>(i)] * vectors_[i];
+    return sum;
+  }
+
+ private:
+  std::vector<Eigen::VectorXd> vectors_;
+  std::vector<Eigen::VectorXd> products_;  // metric times the vectors
+  Eigen::MatrixXd projected_ = Eigen::MatrixXd::Zero(krylov_dimension, krylov_dimension);
+};
+
 /// Lanczos' method for (H + s M)^-1 M on the tangent space of constraints and gauge, in the inner
-/// product of M, with full reorthogonalisation. Its extreme eigenvalues are 1 / (theta + s).
+/// product of M. Its extreme eigenvalues are 1 / (theta + s).
 Curvature Optimality::lowest_curvature() {
   const double s = shift / scales_.time();
   auto metric = problem_.make_matrix();
@@ -145,51 +197,28 @@ Curvature Optimality::lowest_curvature() {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(y_.size());
   for (Eigen::Index row = 0; row < problem_.num_nodal(); ++row) start[row] = uniform(engine);
+
   const auto apply = [&](const Eigen::VectorXd& z) {
     return system_.solve(metric_times(metric, z));
   };
-  std::vector<Eigen::VectorXd> basis;
-  std::vector<Eigen::VectorXd> products;  // M times the basis
-  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(krylov_dimension, krylov_dimension);
-  Eigen::VectorXd next = apply(start);
-  double value = 0;
+  KrylovBasis basis;
   Curvature result;
-  for (int k = 0; k < krylov_dimension; ++k) {
-    Eigen::VectorXd product = metric_times(metric, next);
-    const double length = std::sqrt(next.dot(product));
-    if (!(length > 0)) break;
-    basis.push_back(next / length);
-    products.push_back(product / length);
-    next = apply(basis.back());
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      for (std::size_t i = 0; i < basis.size(); ++i) {
-        const double coefficient = products[i].dot(next);
-        projected(static_cast<Eigen::Index>(i), k) += coefficient;
-        next -= coefficient * basis[i];
-      }
-    }
-    // the coefficients fill the upper triangle of a symmetric matrix
-    const Eigen::MatrixXd square =
-        projected.topLeftCorner(k + 1, k + 1).selfadjointView<Eigen::Upper>();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square);
+  Eigen::VectorXd next = apply(start);
+  while (basis.size() < krylov_dimension && basis.add(next, metric_times(metric, next))) {
+    next = apply(basis.last());
+    basis.project(next);
+    const auto eigen = basis.eigen();
     // theta < -s shows as a negative eigenvalue of the inverse
-    const bool is_beyond = eigen.eigenvalues()[0] < 0;
-    const Eigen::Index which = is_beyond ? 0 : k;
-    const double last = value;
-    value = 1 / eigen.eigenvalues()[which] - s;
-    if (k + 1 < krylov_dimension &&
-        (k < min_krylov_dimension || std::abs(value - last) > eigenvalue_tolerance * s))
-      continue;
-    Eigen::VectorXd vector = Eigen::VectorXd::Zero(y_.size());
-    for (std::size_t i = 0; i < basis.size(); ++i)
-      vector += eigen.eigenvectors()(static_cast<Eigen::Index>(i), which) * basis[i];
-    result.mode = problem_.displacements(vector);
+    const Eigen::Index which = eigen.eigenvalues()[0] < 0 ? 0 : basis.size() - 1;
+    const double last = result.value;
+    result.value = 1 / eigen.eigenvalues()[which] - s;
+    const bool is_settled = basis.size() > min_krylov_dimension &&
+                            std::abs(result.value - last) <= eigenvalue_tolerance * s;
+    if (!is_settled && basis.size() < krylov_dimension) continue;
+    result.mode = problem_.displacements(basis.combine(eigen.eigenvectors().col(which)));
+    result.mode /=
+        std::max(result.mode.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
     break;
-  }
-  result.value = value;
-  if (result.mode.size() > 0) {
-    const double largest = result.mode.lpNorm<Eigen::Infinity>();
-    if (largest > 0) result.mode /= largest;
   }
   return result;
 }
@@ -212,6 +241,11 @@ Equilibrium find_equilibrium(const SolverOptions& options, const model::Model& m
   result.counts.newton = result.report.iterations;
   result.seconds = optimality.system().seconds();
   return result;
+}
+
+std::string no_equilibrium_text(const PolishReport& report) {
+  return fmt::format("polish: no equilibrium after {} steps, relative gradient {:.1e}",
+                     report.iterations, report.gradient);
 }
 
 Curvature lowest_curvature(const SolverOptions& options, const model::Model& model,

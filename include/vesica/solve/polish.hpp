@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "vesica/model/model.hpp"
 #include "vesica/problem/diagnostics.hpp"
@@ -27,6 +28,9 @@ struct Equilibrium {
 [[nodiscard]] Equilibrium find_equilibrium(const SolverOptions& options, const model::Model& model,
                                            const problem::State& state,
                                            const mesh::Positions& reference);
+
+/// What a step report says when the polish has not converged.
+[[nodiscard]] std::string no_equilibrium_text(const PolishReport& report);
 
 /// Lowest curvature of E_h at `state`, whatever method it comes from: the smallest eigenvalue
 /// theta of H z = theta M z for z along the constraints, H the second derivative of E_h + sum
