@@ -88,7 +88,7 @@ StepReport IdaStepper::polish_weak_form() {
     const Eigen::VectorXd rates = step.rates(*next);
     y = *next;
     ++polish.iterations;
-    polished.values = gauged.values(y);
+    polished.values = gauged.values(step.time, y);
     polished.rates = gauged.rates(y, rates);
     polish.gradient = relative_force(problem::measure(model, polished));
     polish.is_converged = polish.gradient < polished_gradient;
