@@ -49,8 +49,11 @@ bool JsonReader::has(const std::string& pointer) const {
 std::vector<std::string> JsonReader::number_pointers() const {
   std::vector<std::string> pointers;
   const nlohmann::json flat = document_->root.flatten();
-  for (const auto& [pointer, value] : flat.items())
-    if (value.is_number() || value.is_null()) pointers.push_back(pointer);
+  for (const auto& [pointer, value] : flat.items()) {
+    // An empty array is flattened to null, too.
+    if (value.is_number() || (value.is_null() && document_->at(pointer).is_null()))
+      pointers.push_back(pointer);
+  }
   return pointers;
 }
 
@@ -80,6 +83,12 @@ std::string JsonReader::text(const std::string& pointer) const {
   const nlohmann::json& value = document_->at(pointer);
   if (!value.is_string()) document_->refuse(pointer, "must be a text");
   return value.get<std::string>();
+}
+
+std::size_t JsonReader::size(const std::string& pointer) const {
+  const nlohmann::json& value = document_->at(pointer);
+  if (!value.is_array()) document_->refuse(pointer, "must be an array");
+  return value.size();
 }
 
 std::optional<bool> JsonReader::optional_flag(const std::string& pointer) const {

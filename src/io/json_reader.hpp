@@ -26,6 +26,8 @@ class JsonReader {
   [[nodiscard]] std::optional<int> optional_count(const std::string& pointer) const;
   [[nodiscard]] long count(const std::string& pointer) const;
   [[nodiscard]] std::string text(const std::string& pointer) const;
+  /// Number of elements of an array.
+  [[nodiscard]] std::size_t size(const std::string& pointer) const;
   /// Nothing for null.
   [[nodiscard]] std::optional<bool> optional_flag(const std::string& pointer) const;
 

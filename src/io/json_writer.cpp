@@ -21,6 +21,10 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
+std::string number_text(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
 }  // namespace
 
 void JsonWriter::add_raw(std::string_view key, std::string_view value) {
@@ -41,8 +45,31 @@ void JsonWriter::end_object() {
   needs_comma_ = true;
 }
 
-void JsonWriter::add(std::string_view key, double value) {
-  add_raw(key, std::isfinite(value) ? fmt::format("{}", value) : "null");
+void JsonWriter::begin_array(std::string_view key) {
+  add_raw(key, "[");
+  needs_comma_ = false;
+  ++depth_;
+}
+
+void JsonWriter::begin_element() {
+  body_ += fmt::format("{}\n{:{}}{{", needs_comma_ ? "," : "", "", 2 * depth_);
+  needs_comma_ = false;
+  ++depth_;
+}
+
+void JsonWriter::end_array() {
+  --depth_;
+  body_ += needs_comma_ ? fmt::format("\n{:{}}]", "", 2 * depth_) : "]";
+  needs_comma_ = true;
+}
+
+void JsonWriter::add(std::string_view key, double value) { add_raw(key, number_text(value)); }
+
+void JsonWriter::add(std::string_view key, const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", number_text(value));
+  add_raw(key, fmt::format("[{}]", text));
 }
 
 void JsonWriter::add(std::string_view key, std::optional<double> value) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vesica::io {
 
@@ -14,6 +15,10 @@ class JsonWriter {
 
   void begin_object(std::string_view key);
   void end_object();
+  /// An array of objects; each one is written between begin_element() and end_object().
+  void begin_array(std::string_view key);
+  void begin_element();
+  void end_array();
   void add(std::string_view key, double value);
   void add(std::string_view key, std::optional<double> value);
   void add(std::string_view key, long value);
@@ -21,6 +26,8 @@ class JsonWriter {
   void add(std::string_view key, std::optional<int> value);
   void add(std::string_view key, std::string_view value);
   void add(std::string_view key, std::optional<bool> value);
+  /// An array on one line.
+  void add(std::string_view key, const std::vector<double>& values);
   /// The whole object; every begun object must have ended.
   [[nodiscard]] std::string text() const { return "{" + body_ + "\n}\n"; }
 

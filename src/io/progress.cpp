@@ -35,10 +35,8 @@ std::string progress_line(const relax::StepView& view) {
       largest_error(measured.constraint_errors), measured.quality);
 }
 
-std::string mesh_change_line(const relax::MeshChange& change) {
-  return fmt::format("step {}  remeshed: {} -> {} nodes, quality {:.2f} -> {:.2f}, because {}",
-                     change.step, change.nodes_before, change.nodes_after, change.quality_before,
-                     change.quality_after, change.reason);
+std::string event_line(const relax::Event& event) {
+  return fmt::format("step {}  t {:.4g}  {}", event.step, event.time, event.what);
 }
 
 bool Progress::is_due(const relax::StepView& view) const {
@@ -62,11 +60,10 @@ void Progress::observe(const relax::StepView& view) {
   if (style_ != ProgressStyle::none && is_due(view)) write(view);
 }
 
-void Progress::mesh_changed(const relax::StepView&, const relax::MeshChange& change) {
+void Progress::happened(const relax::StepView&, const relax::Event& event) {
   if (style_ == ProgressStyle::none) return;
   if (style_ == ProgressStyle::rewriting) out_ << '\r';
-  out_ << mesh_change_line(change) << (style_ == ProgressStyle::rewriting ? "\x1b[K" : "")
-       << std::endl;
+  out_ << event_line(event) << (style_ == ProgressStyle::rewriting ? "\x1b[K" : "") << std::endl;
 }
 
 void Progress::finish(const relax::StepView& view, const relax::Outcome&) {

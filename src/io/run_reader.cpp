@@ -110,6 +110,20 @@ problem::ShapeNumbers shape_of(const JsonReader& json) {
   return shape;
 }
 
+/// Areas and boundary lengths; their centroids stand in the trajectory.
+std::vector<problem::PhaseDomain> domains_of(const JsonReader& json) {
+  std::vector<problem::PhaseDomain> domains;
+  for (const int phase : {1, 2}) {
+    const std::string areas = fmt::format("/domains/areas/phase_{}", phase);
+    const std::string lengths = fmt::format("/domains/boundary_lengths/phase_{}", phase);
+    for (std::size_t i = 0; i < json.size(areas); ++i) {
+      domains.push_back({phase, json.number(fmt::format("{}/{}", areas, i)),
+                         json.number(fmt::format("{}/{}", lengths, i))});
+    }
+  }
+  return domains;
+}
+
 problem::Diagnostics diagnostics_of(const JsonReader& json) {
   problem::Diagnostics measured;
   measured.energy = {json.number("/energy/bending"), json.number("/energy/gaussian"),
@@ -123,7 +137,18 @@ problem::Diagnostics diagnostics_of(const JsonReader& json) {
                        radius * json.number("/normal_velocity"),
                        radius * json.number("/tangential_velocity")};
   measured.quality = json.number("/mesh/quality");
+  measured.domains = domains_of(json);
   return measured;
+}
+
+std::vector<relax::Event> events_of(const JsonReader& json) {
+  std::vector<relax::Event> events(json.size("/events"));
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const std::string event = fmt::format("/events/{}", i);
+    events[i] = {json.count(event + "/step"), json.number(event + "/time"),
+                 json.text(event + "/what")};
+  }
+  return events;
 }
 
 std::optional<solve::PolishReport> polish_of(const JsonReader& json) {
@@ -183,6 +208,7 @@ Verdict read_verdict(const fs::path& file) {
   verdict.smallest_normal_cosine = json.number("/mesh/smallest_normal_cosine");
   // How many there were; when and why stands in the trajectory.
   verdict.outcome.mesh_changes.resize(static_cast<std::size_t>(json.count("/mesh/remeshings")));
+  verdict.outcome.events = events_of(json);
   verdict.method = json.text("/method");
   verdict.scheme = json.text("/scheme");
   verdict.time = json.number("/time");

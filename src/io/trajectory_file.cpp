@@ -66,7 +66,8 @@ class AttributeWriter {
 TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
                                const model::Model& model)
     : file_(path), model_(model) {
-  for (const char* group : {"/meshes", "/frames", "/series"}) file_.make_group(group);
+  for (const char* group : {"/meshes", "/frames", "/series", "/domains", "/events"})
+    file_.make_group(group);
   write_configuration(config);
   write_versions();
 }
@@ -144,8 +145,27 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
     file_.write(group + "/order_parameter", values_of(state.values.order_parameter));
   file_.write(group + "/normal_velocity", values_of(fields.normal_velocity));
   file_.write(group + "/bending_energy_density", values_of(fields.bending_energy_density));
+  write_domains(view.diagnostics);
   frames_.push_back({state.time, group, meshes_.back(), state.triangulation->num_nodes(),
                      state.triangulation->num_triangles(), state.is_two_phase()});
+}
+
+/// Rows of the domains' table for the frame that is being added.
+void TrajectoryFile::write_domains(const problem::Diagnostics& diagnostics) {
+  using problem::PhaseDomain;
+  const auto column = [&](const char* name, const auto& value) {
+    std::vector<double> values;
+    for (const PhaseDomain& domain : diagnostics.domains) values.push_back(value(domain));
+    if (!values.empty()) file_.append(fmt::format("/domains/{}", name), values);
+  };
+  const auto frame = static_cast<double>(frames_.size());
+  column("frame", [&](const PhaseDomain&) { return frame; });
+  column("phase", [](const PhaseDomain& domain) { return domain.phase; });
+  column("area", [](const PhaseDomain& domain) { return domain.area; });
+  column("boundary_length", [](const PhaseDomain& domain) { return domain.boundary_length; });
+  column("centroid_x", [](const PhaseDomain& domain) { return domain.centroid.x(); });
+  column("centroid_y", [](const PhaseDomain& domain) { return domain.centroid.y(); });
+  column("centroid_z", [](const PhaseDomain& domain) { return domain.centroid.z(); });
 }
 
 void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome) {
@@ -173,6 +193,14 @@ void TrajectoryFile::flush() {
     file_.append(fmt::format("/series/{}", names[column]), values);
   }
   rows_.clear();
+  for (const relax::Event& event : events_) {
+    const std::string group = numbered("events", num_written_events_++);
+    file_.make_group(group);
+    file_.set_attribute(group, "step", static_cast<std::int64_t>(event.step));
+    file_.set_attribute(group, "time", event.time);
+    file_.set_attribute(group, "what", event.what);
+  }
+  events_.clear();
   file_.flush();
 }
 

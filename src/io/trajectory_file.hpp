@@ -26,8 +26,10 @@ class TrajectoryFile {
   void add_frame(const relax::StepView& view);
   /// What the next frame's mesh is there for: attributes of its mesh group.
   void add_mesh_change(const relax::MeshChange& change) { next_change_ = change; }
+  /// Kept until the next flush.
+  void add_event(const relax::Event& event) { events_.push_back(event); }
   void add_outcome(const relax::StepView& view, const relax::Outcome& outcome);
-  /// Rows and frames reach the disk.
+  /// Rows, frames and events reach the disk.
   void flush();
   void close() { file_.close(); }
   [[nodiscard]] const std::vector<XdmfFrame>& frames() const { return frames_; }
@@ -35,11 +37,14 @@ class TrajectoryFile {
  private:
   void write_configuration(const RunConfig& config);
   void write_versions();
+  void write_domains(const problem::Diagnostics& diagnostics);
   void write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation);
 
   hdf5::WritableFile file_;
   model::Model model_;
   std::vector<std::vector<double>> rows_;
+  std::vector<relax::Event> events_;
+  std::size_t num_written_events_ = 0;
   std::vector<XdmfFrame> frames_;
   std::vector<std::string> meshes_;
   std::shared_ptr<const mesh::Triangulation> last_triangulation_;

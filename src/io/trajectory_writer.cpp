@@ -42,6 +42,8 @@ class TrajectoryWriter::Writer {
     add_frame(view);
   }
 
+  void happened(const relax::Event& event) { file_.add_event(event); }
+
   void finish(const relax::StepView& view, const relax::Outcome& outcome) {
     const mesh::Positions& positions = view.state.values.positions;
     const bool was_moved =
@@ -106,6 +108,16 @@ void TrajectoryWriter::mesh_changed(const relax::StepView& view, const relax::Me
   if (!writer_) return;
   try {
     writer_->mesh_changed(view, change);
+  } catch (...) {
+    writer_.reset();
+    throw;
+  }
+}
+
+void TrajectoryWriter::happened(const relax::StepView&, const relax::Event& event) {
+  if (!writer_) return;
+  try {
+    writer_->happened(event);
   } catch (...) {
     writer_.reset();
     throw;

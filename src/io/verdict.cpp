@@ -1,9 +1,11 @@
 #include "vesica/io/verdict.hpp"
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "io/verdict_fields.hpp"
 #include "vesica/io/run_folder.hpp"
@@ -54,6 +56,30 @@ void add_mesh(JsonWriter& json, const Verdict& verdict) {
   json.end_object();
 }
 
+/// One number a domain, an array for each phase.
+void add_domains(JsonWriter& json, std::string_view key,
+                 const std::vector<problem::PhaseDomain>& domains, const auto& number) {
+  std::array<std::vector<double>, 2> numbers;
+  for (const auto& domain : domains)
+    numbers[static_cast<std::size_t>(domain.phase) - 1].push_back(number(domain));
+  json.begin_object(key);
+  json.add("phase_1", numbers[0]);
+  json.add("phase_2", numbers[1]);
+  json.end_object();
+}
+
+void add_events(JsonWriter& json, const std::vector<relax::Event>& events) {
+  json.begin_array("events");
+  for (const auto& event : events) {
+    json.begin_element();
+    json.add("step", event.step);
+    json.add("time", event.time);
+    json.add("what", event.what);
+    json.end_object();
+  }
+  json.end_array();
+}
+
 void add_shape(JsonWriter& json, const Verdict& verdict) {
   const problem::ShapeNumbers& shape = verdict.shape;
   json.begin_object("shape");
@@ -72,6 +98,10 @@ void add_shape(JsonWriter& json, const Verdict& verdict) {
   json.begin_object("domains");
   json.add("phase_1", shape.domains_1);
   json.add("phase_2", shape.domains_2);
+  const auto& domains = verdict.outcome.diagnostics.domains;
+  add_domains(json, "areas", domains, [](const auto& domain) { return domain.area; });
+  add_domains(json, "boundary_lengths", domains,
+              [](const auto& domain) { return domain.boundary_length; });
   json.end_object();
 }
 
@@ -141,6 +171,7 @@ void add_verdict(JsonWriter& json, const Verdict& verdict) {
   add_equilibrium(json, verdict.outcome.report);
   add_mesh(json, verdict);
   add_shape(json, verdict);
+  add_events(json, verdict.outcome.events);
   add_work(json, verdict.outcome.report);
 }
 

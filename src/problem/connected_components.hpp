@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
@@ -7,9 +8,15 @@
 
 namespace vesica::problem {
 
-/// Number of connected components of a graph with vertices 0 .. num_vertices - 1.
-[[nodiscard]] inline int num_components(std::size_t num_vertices,
-                                        const std::vector<std::array<std::size_t, 2>>& links) {
+/// Connected components of a graph.
+struct Components {
+  std::size_t count = 0;
+  std::vector<std::size_t> of_vertex;  ///< number of its component, below count
+};
+
+/// Components of the graph with vertices 0 .. num_vertices - 1, numbered by their first vertices.
+[[nodiscard]] inline Components connected_components(
+    std::size_t num_vertices, const std::vector<std::array<std::size_t, 2>>& links) {
   std::vector<std::size_t> parent(num_vertices);
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto root = [&](std::size_t vertex) {
@@ -19,13 +26,16 @@ namespace vesica::problem {
     }
     return vertex;
   };
-  auto components = static_cast<int>(num_vertices);
   for (const auto& [a, b] : links) {
-    const auto root_a = root(a);
-    const auto root_b = root(b);
-    if (root_a == root_b) continue;
-    parent[root_b] = root_a;
-    --components;
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent[high] = low;
+  }
+  Components components;
+  components.of_vertex.resize(num_vertices);
+  for (std::size_t vertex = 0; vertex < num_vertices; ++vertex) {
+    const std::size_t first = root(vertex);
+    components.of_vertex[vertex] =
+        first == vertex ? components.count++ : components.of_vertex[first];
   }
   return components;
 }

@@ -68,7 +68,9 @@ class Pieces {
     for (const auto& [a, b] : pieces) links_.push_back({number(a), number(b)});
   }
 
-  [[nodiscard]] int num_loops() const { return num_components(num_lines_, links_); }
+  [[nodiscard]] int num_loops() const {
+    return static_cast<int>(connected_components(num_lines_, links_).count);
+  }
 
   /// The lines of each loop in order; the last one is the first once more.
   [[nodiscard]] std::vector<std::vector<std::size_t>> loops() const {

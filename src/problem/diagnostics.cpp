@@ -144,6 +144,7 @@ Diagnostics measure(const model::Model& model, const State& state) {
   }
   result.velocity = velocity_norms(state);
   result.quality = mesh::quality(*state.triangulation, state.values.positions);
+  result.domains = phase_domains(state);
   return result;
 }
 

@@ -1,41 +1,15 @@
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "connected_components.hpp"
 #include "cross_sections.hpp"
 #include "long_axis.hpp"
 #include "surface_integral.hpp"
 #include "vesica/model/two_phase.hpp"
 #include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/phase_domains.hpp"
 
 namespace vesica::problem {
 namespace {
-
-/// Sides of the four sub-triangles of an element, as local nodes.
-constexpr std::array<std::array<std::size_t, 2>, 9> sub_edges = {
-    {{0, 3}, {3, 1}, {1, 4}, {4, 2}, {2, 5}, {5, 0}, {3, 4}, {4, 5}, {5, 3}}};
-
-/// Connected sets of nodes with sign * c > 0, neighbours along the sub-edges.
-int num_domains(const State& state, double sign) {
-  const auto& c = state.values.order_parameter;
-  constexpr std::size_t outside = -1;
-  std::vector<std::size_t> number(static_cast<std::size_t>(c.size()), outside);
-  std::size_t count = 0;
-  for (Eigen::Index i = 0; i < c.size(); ++i) {
-    if (sign * c[i] > 0) number[static_cast<std::size_t>(i)] = count++;
-  }
-  std::vector<std::array<std::size_t, 2>> links;
-  for (const auto& triangle : state.triangulation->triangles()) {
-    for (const auto& [a, b] : sub_edges) {
-      const auto from = number[static_cast<std::size_t>(triangle[a])];
-      const auto to = number[static_cast<std::size_t>(triangle[b])];
-      if (from != outside && to != outside) links.push_back({from, to});
-    }
-  }
-  return num_components(count, links);
-}
 
 struct SurfaceMeasures {
   double volume = 0;
@@ -64,8 +38,9 @@ void add_phase_numbers(const model::Material& material, const State& state,
       numbers.characteristic_radius * 4.0 / 3.0 * material.line_tension / rigidity;
   numbers.rigidity_ratio = material.bending_rigidity.phase_2 / rigidity;
   numbers.saddle_splay_difference = material.gaussian_rigidity.difference() / rigidity;
-  numbers.domains_1 = num_domains(state, 1);
-  numbers.domains_2 = num_domains(state, -1);
+  const auto domains = phase_domains(state);
+  numbers.domains_1 = num_domains(domains, 1);
+  numbers.domains_2 = num_domains(domains, 2);
 }
 
 }  // namespace

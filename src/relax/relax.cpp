@@ -10,6 +10,7 @@
 
 #include "vesica/core/error.hpp"
 #include "vesica/core/scoped_timer.hpp"
+#include "vesica/relax/domain_watch.hpp"
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
@@ -18,6 +19,12 @@ namespace {
 
 constexpr double restart_step = 0.3;  // of the last step, on a new mesh
 constexpr double retry_step = 0.03;   // the same after a failure
+
+std::string description(const MeshChange& change) {
+  return fmt::format("remeshed: {} -> {} nodes, quality {:.2f} -> {:.2f}, because {}",
+                     change.nodes_before, change.nodes_after, change.quality_before,
+                     change.quality_after, change.reason);
+}
 
 /// The stepper of a run, and how it is replaced.
 struct StepperSlot {
@@ -54,7 +61,8 @@ class Run {
         stop_(stop),
         observers_(observers),
         controllers_(controllers),
-        stationarity_(stop, model) {
+        stationarity_(stop, model),
+        domains_(model.material.interface_width) {
     report_.time = state().time;
   }
 
@@ -124,6 +132,7 @@ class Run {
 
   std::optional<Stop> look_and_respond() {
     for (auto* observer : observers_) observer->observe(view());
+    for (const Event& event : domains_.look(view())) record(event);
     std::optional<Stop> end;
     std::optional<Remesh> remesh;
     for (auto* controller : controllers_) {
@@ -179,7 +188,13 @@ class Run {
     change.quality_after = diagnostics_.quality;
     outcome_.mesh_changes.push_back(change);
     for (auto* observer : observers_) observer->mesh_changed(view(), change);
+    record({change.step, change.time, description(change)});
     return true;
+  }
+
+  void record(const Event& event) {
+    outcome_.events.push_back(event);
+    for (auto* observer : observers_) observer->happened(view(), event);
   }
 
   /// The state rests: take the constraints to round-off, then look at all criteria once more. When
@@ -207,6 +222,7 @@ class Run {
   }
 
   Outcome conclude(const Stop& end) {
+    for (const Event& event : domains_.finish()) record(event);
     outcome_.status = end.status;
     outcome_.reason = end.reason;
     outcome_.signal = end.signal;
@@ -222,6 +238,7 @@ class Run {
   std::span<Observer* const> observers_;
   std::span<Controller* const> controllers_;
   Stationarity stationarity_;
+  DomainWatch domains_;
   double processor_seconds_ = 0;
   solve::StepReport report_;
   solve::SolverCounts counts_;  // of the present stepper

@@ -18,7 +18,7 @@ class Progress final : public relax::Observer {
   /// `out` must outlive the observer.
   Progress(std::ostream& out, ProgressStyle style) : out_(out), style_(style) {}
   void observe(const relax::StepView& view) override;
-  void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) override;
+  void happened(const relax::StepView& view, const relax::Event& event) override;
   void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
 
  private:
@@ -38,7 +38,7 @@ class Progress final : public relax::Observer {
 /// distance 2.3e-07  C 2.4e-15  q 0.564` with the distance to the minimum of `StepReport`.
 [[nodiscard]] std::string progress_line(const relax::StepView& view);
 
-/// `step 37  remeshed: 1774 -> 9390 nodes, quality 0.28 -> 0.61, because the quality fell to 0.28`.
-[[nodiscard]] std::string mesh_change_line(const relax::MeshChange& change);
+/// `step 37  t 0.1234  domains of phase 1: 2 -> 1`.
+[[nodiscard]] std::string event_line(const relax::Event& event);
 
 }  // namespace vesica::io

@@ -27,6 +27,8 @@ class TrajectoryWriter final : public relax::Observer {
   void observe(const relax::StepView& view) override;
   /// A frame on the new mesh, which adds its connectivity. Throws IoError.
   void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) override;
+  /// Kept in the file with its step and time. Throws IoError.
+  void happened(const relax::StepView& view, const relax::Event& event) override;
   /// The final frame, the outcome, and the names of a finished run. Throws IoError.
   void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
 

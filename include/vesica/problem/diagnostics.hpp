@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "vesica/model/model.hpp"
+#include "vesica/problem/phase_domains.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::problem {
@@ -33,6 +35,7 @@ struct Diagnostics {
       constraint_errors;  ///< relative: (C - target) / scale, scale = |target| (area for the phase)
   VelocityNorms velocity;
   double quality = 0;  ///< (3.5): smallest sine of the angles of the four flat sub-triangles
+  std::vector<PhaseDomain> domains;  ///< as phase_domains()
 };
 
 /// Dimensionless numbers of Section 4 and lengths of the shape; what is not defined for it is

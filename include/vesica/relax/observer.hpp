@@ -16,6 +16,13 @@ struct StepView {
   const problem::Diagnostics& diagnostics;
 };
 
+/// Something worth a line in the log: a change of the mesh, of the number of phase domains.
+struct Event {
+  long step = 0;
+  double time = 0;  ///< [time]
+  std::string what;
+};
+
 /// A change of the mesh between two steps.
 struct MeshChange {
   long step = 0;
@@ -48,6 +55,7 @@ struct Outcome {
   double smallest_quality = 0;  ///< smallest mesh quality over the run
   double initial_quality = 0;
   std::vector<MeshChange> mesh_changes;
+  std::vector<Event> events;  ///< in the order in which they were noticed
 };
 
 /// Watches a run; changes nothing. Derive from it to record or draw.
@@ -64,6 +72,11 @@ class Observer {
   virtual void mesh_changed(const StepView& view, const MeshChange& change) {
     (void)view;
     (void)change;
+  }
+  /// As soon as it is noticed; a change of the mesh after `mesh_changed`.
+  virtual void happened(const StepView& view, const Event& event) {
+    (void)view;
+    (void)event;
   }
   /// Once, after the last step, with the final state. Also after a failure.
   virtual void finish(const StepView& view, const Outcome& outcome) {

@@ -48,24 +48,20 @@ TEST(Progress, ALineOfAMinimisationTellsEvaluationsAndTheDistanceToTheMinimum) {
   EXPECT_NE(line.find("  distance 3.2e-04  C "), std::string::npos) << line;
 }
 
-relax::MeshChange fake_change() {
-  return {12, 0.25, 1774, 9390, 0.28, 0.61, "the quality fell to 0.28"};
-}
+constexpr const char* event_12 = "step 12  t 0.25  domains of phase 1: 2 -> 1";
 
-constexpr const char* change_12 =
-    "step 12  remeshed: 1774 -> 9390 nodes, quality 0.28 -> 0.61, because the quality fell to 0.28";
-
-TEST(Progress, AChangeOfTheMeshHasALineOfItsOwn) {
-  EXPECT_EQ(mesh_change_line(fake_change()), change_12);
+TEST(Progress, AnEventHasALineOfItsOwn) {
+  const relax::Event event{12, 0.25, "domains of phase 1: 2 -> 1"};
+  EXPECT_EQ(event_line(event), event_12);
   const problem::State state = fake_state();
   const problem::Diagnostics measured = fake_diagnostics();
   const solve::StepReport report = fake_report(12);
   for (const auto& [style, text] :
-       {std::pair{ProgressStyle::sparse, fmt::format("{}\n", change_12)},
-        std::pair{ProgressStyle::rewriting, fmt::format("\r{}\x1b[K\n", change_12)},
+       {std::pair{ProgressStyle::sparse, fmt::format("{}\n", event_12)},
+        std::pair{ProgressStyle::rewriting, fmt::format("\r{}\x1b[K\n", event_12)},
         std::pair{ProgressStyle::none, std::string()}}) {
     std::ostringstream out;
-    Progress(out, style).mesh_changed({state, report, measured}, fake_change());
+    Progress(out, style).happened({state, report, measured}, event);
     EXPECT_EQ(out.str(), text);
   }
 }

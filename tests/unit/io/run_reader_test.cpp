@@ -31,6 +31,8 @@ Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int sign
   solve::StepReport report = fake_report(0);
   relax::Outcome outcome = fake_outcome(status);
   outcome.signal = signal;
+  outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
+  outcome.events = {{3, 0.5, "domains of phase 1: 1 -> 2"}};
   const problem::Diagnostics measured = fake_diagnostics();
   TrajectoryWriter writer(folder, config, {});
   for (long step = 0; step <= 12; ++step) {

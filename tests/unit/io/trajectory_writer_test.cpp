@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -213,6 +214,40 @@ TEST(TrajectoryWriter, AChangeOfTheMeshGetsAFrameAndItsReason) {
   EXPECT_EQ(file.numbers("/series/step").size(), 1U);  // a row is a step
 }
 
+TEST(TrajectoryWriter, EveryFrameHasItsDomainsInOneTable) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.measured.domains = {{1, 3, 6, {1, 2, 3}}, {1, 2, 5, {0, 0, 0}}, {2, 7, 11, {0, 0, -1}}};
+  run.observe(writer, 0);
+  run.measured.domains = {{2, 12, 0, {0, 0, 0}}};
+  run.observe(writer, 5);
+  run.finish(writer);
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  EXPECT_EQ(file.numbers("/domains/frame"), (std::vector<double>{0, 0, 0, 1}));
+  EXPECT_EQ(file.numbers("/domains/phase"), (std::vector<double>{1, 1, 2, 2}));
+  EXPECT_EQ(file.numbers("/domains/area"), (std::vector<double>{3, 2, 7, 12}));
+  EXPECT_EQ(file.numbers("/domains/boundary_length"), (std::vector<double>{6, 5, 11, 0}));
+  EXPECT_EQ(file.numbers("/domains/centroid_z"), (std::vector<double>{3, 0, -1, 0}));
+}
+
+TEST(TrajectoryWriter, EventsAreKept) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  for (const long step : {3, 4}) {
+    writer.happened({run.state, run.report, run.measured},
+                    {step, 0.25, fmt::format("what happened in step {}", step)});
+  }
+  run.finish(writer);
+  const ReadableFile file(folder.path() / "trajectory.h5");
+  EXPECT_EQ(file.number_attribute("/events/000001", "step"), 4);
+  EXPECT_EQ(file.number_attribute("/events/000001", "time"), 0.25);
+  EXPECT_EQ(file.text_attribute("/events/000000", "what"), "what happened in step 3");
+  EXPECT_FALSE(file.has("/events/000002"));
+}
+
 TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
   const TemporaryFolder folder;
   FakeRun run;
@@ -225,6 +260,7 @@ TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
   run.finish(writer);
   const ReadableFile file(folder.path() / "trajectory.h5");
   EXPECT_FALSE(file.has("/frames/000000/order_parameter"));
+  EXPECT_FALSE(file.has("/domains/area"));
   EXPECT_EQ(text_of(folder.path() / "trajectory.xdmf").find("Name=\"c\""), std::string::npos);
 }
 

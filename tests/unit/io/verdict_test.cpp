@@ -55,6 +55,31 @@ TEST(Verdict, CountsTheChangesOfTheMesh) {
   EXPECT_NE(to_json(verdict).find("\"remeshings\": 3"), std::string::npos) << to_json(verdict);
 }
 
+TEST(Verdict, HoldsAreasAndBoundariesOfTheDomainsPhaseByPhase) {
+  Verdict verdict = fake_verdict(RunStatus::converged);
+  const std::string none = to_json(verdict);
+  EXPECT_NE(none.find("\"areas\": {\n      \"phase_1\": [],"), std::string::npos) << none;
+  verdict.outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
+  const std::string json = to_json(verdict);
+  for (const char* part :
+       {"\"areas\": {\n      \"phase_1\": [3, 2],\n      \"phase_2\": [7]\n    },",
+        "\"boundary_lengths\": {\n      \"phase_1\": [6.5, 5],\n      \"phase_2\": [11]\n    }\n  "
+        "},"}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part << " is not in\n" << json;
+  }
+}
+
+TEST(Verdict, ListsTheEvents) {
+  Verdict verdict = fake_verdict(RunStatus::converged);
+  EXPECT_NE(to_json(verdict).find("\"events\": [],"), std::string::npos);
+  verdict.outcome.events = {{3, 0.5, "domains of phase 1: 2 -> 1"}, {4, 0.75, "remeshed"}};
+  const std::string json = to_json(verdict);
+  const char* events =
+      "\"events\": [\n    {\n      \"step\": 3,\n      \"time\": 0.5,\n"
+      "      \"what\": \"domains of phase 1: 2 -> 1\"\n    },\n    {\n      \"step\": 4,";
+  EXPECT_NE(json.find(events), std::string::npos) << json;
+}
+
 TEST(Verdict, StatusHasTheNamesOfTheInterface) {
   EXPECT_EQ(status_name(RunStatus::converged), "converged");
   EXPECT_EQ(status_name(RunStatus::end_time), "time limit");

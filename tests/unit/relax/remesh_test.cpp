@@ -157,6 +157,10 @@ TEST_F(RunWithRemeshTest, CountsStepsOfAllSteppers) {
   EXPECT_EQ(outcome.mesh_changes[0].nodes_before, 42);
   EXPECT_EQ(outcome.mesh_changes[0].nodes_after, start_.triangulation->num_nodes());
   EXPECT_EQ(outcome.mesh_changes[0].reason, "the test asks");
+  ASSERT_EQ(outcome.events.size(), 1U);
+  EXPECT_EQ(outcome.events[0].step, 4);
+  EXPECT_TRUE(outcome.events[0].what.starts_with("remeshed: 42 -> ")) << outcome.events[0].what;
+  EXPECT_TRUE(outcome.events[0].what.ends_with(", because the test asks"));
   ASSERT_EQ(restarts_.size(), 1U);
   EXPECT_DOUBLE_EQ(restarts_[0].initial_step, 0.3);  // of a step of 1
 }
