@@ -15,6 +15,7 @@
 #include "vesica/io/trajectory_writer.hpp"
 #include "vesica/relax/damping_controller.hpp"
 #include "vesica/relax/mesh_controller.hpp"
+#include "vesica/relax/neck_controller.hpp"
 #include "vesica/relax/relax.hpp"
 #include "vesica/solve/make_stepper.hpp"
 
@@ -31,8 +32,9 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
   relax::MeshController mesh(config.adaption, vesicle.model, scales);
+  relax::NeckController neck(vesicle.model, scales);
   const std::array<relax::Observer*, 2> observers{&progress, &trajectory};
-  std::vector<relax::Controller*> controllers{&damping, &interrupt};
+  std::vector<relax::Controller*> controllers{&damping, &interrupt, &neck};
   if (config.adaption.enabled) controllers.push_back(&mesh);
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);

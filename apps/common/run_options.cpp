@@ -15,7 +15,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_flag("--overwrite", options.overwrites, "replace a run that is in the folder");
   app.add_flag("--quiet", options.is_quiet, "print nothing but warnings and errors");
   app.footer(
-      "Exit status: 0 converged; 1 stopped by a limit before convergence; 2 bad input;\n"
+      "Exit status: 0 converged; 1 stopped before convergence; 2 bad input;\n"
       "3 numerical failure; 4 files could not be read or written; 130 or 143 interrupted.");
 }
 

@@ -198,6 +198,8 @@ std::string_view status_name(relax::RunStatus status) {
       return "step limit";
     case relax::RunStatus::stopped:
       return "stopped";
+    case relax::RunStatus::neck_closes:
+      return "neck closes";
     case relax::RunStatus::interrupted:
       return "interrupted";
     case relax::RunStatus::numerical_failure:
@@ -214,6 +216,7 @@ int exit_status(const relax::Outcome& outcome) {
     case relax::RunStatus::time_limit:
     case relax::RunStatus::step_limit:
     case relax::RunStatus::stopped:
+    case relax::RunStatus::neck_closes:
       return 1;
     case relax::RunStatus::interrupted:
       return 128 + (outcome.signal == 0 ? SIGINT : outcome.signal);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <utility>
 
+#include "processor_timer.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/scoped_timer.hpp"
 #include "vesica/relax/domain_watch.hpp"
@@ -38,19 +38,6 @@ struct StepperSlot {
   }
 };
 
-/// Adds the processor seconds, of all threads, of its lifetime to a total.
-class ProcessorTimer {
- public:
-  explicit ProcessorTimer(double& total) : total_(total) {}
-  ProcessorTimer(const ProcessorTimer&) = delete;
-  ProcessorTimer& operator=(const ProcessorTimer&) = delete;
-  ~ProcessorTimer() { total_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
-
- private:
-  double& total_;
-  std::clock_t start_ = std::clock();
-};
-
 /// One run; its members are what the steps of the loop share.
 class Run {
  public:
@@ -73,8 +60,7 @@ class Run {
     while (!end) {
       report_ = stepped([&] { return stepper_.current->step(stop_.end_time); });
       if (report_.status == solve::StepStatus::failed) {
-        if (!change_mesh_if_asked(&Controller::respond_to_failure, retry_step))
-          end = Stop{RunStatus::numerical_failure, report_.reason};
+        end = respond_to_failure();
         continue;
       }
       step_size_ = report_.step_size;
@@ -133,40 +119,68 @@ class Run {
   std::optional<Stop> look_and_respond() {
     for (auto* observer : observers_) observer->observe(view());
     for (const Event& event : domains_.look(view())) record(event);
+    const Answers answers = ask(&Controller::respond);
+    if (answers.stop) return answers.stop;
+    if (change_mesh(answers.remesh, restart_step)) return respond_to_limit();
     std::optional<Stop> end;
-    std::optional<Remesh> remesh;
-    for (auto* controller : controllers_) {
-      for (auto& request : controlled([&] { return controller->respond(view()); })) {
-        if (const auto* damping = std::get_if<SetDamping>(&request))
-          stepper_.current->set_damping(damping->alpha);
-        if (const auto* stop = std::get_if<Stop>(&request); stop && !end) end = *stop;
-        if (const auto* wanted = std::get_if<Remesh>(&request)) remesh = *wanted;
-      }
-    }
-    const bool is_changed = !end && remesh && change_mesh(*remesh, restart_step);
-    if (!end && !is_changed && report_.counts.steps > 0 && stationarity_.is_at_rest(view()) &&
-        !change_mesh_if_asked(&Controller::respond_to_rest, restart_step)) {
-      end = try_to_finish();
-    }
-    if (!end) end = stationarity_.limit(view());
-    return end;
+    if (report_.counts.steps > 0 && stationarity_.is_at_rest(view())) end = respond_to_rest();
+    return end ? end : respond_to_limit();
   }
 
   using Response = std::vector<Request> (Controller::*)(const StepView& view);
 
-  /// Carries out the first Remesh that a controller answers with.
-  bool change_mesh_if_asked(Response response, double step_factor) {
+  /// The first of each kind.
+  struct Answers {
+    std::optional<Stop> stop;
+    std::optional<Remesh> remesh;
+  };
+
+  /// Asks all controllers, in order, and sets the damping that they want.
+  Answers ask(Response response) {
+    Answers answers;
     for (auto* controller : controllers_) {
       for (const auto& request : controlled([&] { return (controller->*response)(view()); })) {
-        if (const auto* remesh = std::get_if<Remesh>(&request))
-          return change_mesh(*remesh, step_factor);
+        if (const auto* damping = std::get_if<SetDamping>(&request))
+          stepper_.current->set_damping(damping->alpha);
+        if (const auto* stop = std::get_if<Stop>(&request); stop && !answers.stop)
+          answers.stop = *stop;
+        if (const auto* remesh = std::get_if<Remesh>(&request); remesh && !answers.remesh)
+          answers.remesh = *remesh;
       }
     }
-    return false;
+    return answers;
   }
 
-  /// A new mesh and a new stepper; false when the new mesh is worse than none.
-  bool change_mesh(const Remesh& remesh, double step_factor) {
+  std::optional<Stop> respond_to_failure() {
+    const std::string failure = report_.reason;
+    const Answers answers = ask(&Controller::respond_to_failure);
+    if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
+    return explained({RunStatus::numerical_failure, failure}, answers.stop);
+  }
+
+  std::optional<Stop> respond_to_limit() {
+    const std::optional<Stop> limit = stationarity_.limit(view());
+    if (!limit) return std::nullopt;
+    return explained(*limit, ask(&Controller::respond_to_limit).stop);
+  }
+
+  std::optional<Stop> respond_to_rest() {
+    const Answers answers = ask(&Controller::respond_to_rest);
+    if (answers.stop) return answers.stop;
+    if (change_mesh(answers.remesh, restart_step)) return std::nullopt;
+    return try_to_finish();
+  }
+
+  /// The end of a run with what is behind it.
+  static Stop explained(const Stop& end, const std::optional<Stop>& cause) {
+    if (!cause) return end;
+    return {cause->status, fmt::format("{}; then {}", cause->reason, end.reason)};
+  }
+
+  /// A new mesh and a new stepper; false when none is asked for or it is worse than none.
+  bool change_mesh(const std::optional<Remesh>& wanted, double step_factor) {
+    if (!wanted) return false;
+    const Remesh& remesh = *wanted;
     if (stepper_.factory == nullptr)
       throw ConfigError("relax: a new mesh is asked for: needs a factory of steppers");
     auto changed = controlled([&] { return remeshed(model_, state(), remesh); });

@@ -43,14 +43,22 @@ class Controller {
   /// Requests are carried out in order, before the next step; empty: go on.
   [[nodiscard]] virtual std::vector<Request> respond(const StepView& view) = 0;
 
-  /// When a step has failed; `view` is the last good state. Only Remesh counts: the run goes on
-  /// from there.
+  /// When a step has failed; `view` is the last good state. With a Remesh the run goes on from
+  /// there, else a Stop tells why it ends; the reason of the failure is added to its reason.
   [[nodiscard]] virtual std::vector<Request> respond_to_failure(const StepView& view) {
     (void)view;
     return {};
   }
 
-  /// When the run is about to end in an equilibrium. Only Remesh counts: the run goes on.
+  /// When the run is about to end at a limit. Only a Stop counts: it tells why the run got no
+  /// further; the limit is added to its reason.
+  [[nodiscard]] virtual std::vector<Request> respond_to_limit(const StepView& view) {
+    (void)view;
+    return {};
+  }
+
+  /// When the run is about to end in an equilibrium. A Stop ends it with another status; with a
+  /// Remesh the run goes on.
   [[nodiscard]] virtual std::vector<Request> respond_to_rest(const StepView& view) {
     (void)view;
     return {};

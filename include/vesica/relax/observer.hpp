@@ -41,6 +41,7 @@ enum class RunStatus {
   step_limit,
   time_limit,
   stopped,
+  neck_closes,
   interrupted,
   numerical_failure
 };

@@ -132,6 +132,45 @@ TEST_F(RelaxTest, StopsWhenAUsersControllerAsksForIt) {
   EXPECT_EQ(outcome.report.counts.steps, 3);
 }
 
+/// Tells what is behind a failure, a limit, or a rest.
+class Explainer final : public Controller {
+ public:
+  [[nodiscard]] std::vector<Request> respond(const StepView&) override { return {}; }
+  [[nodiscard]] std::vector<Request> respond_to_failure(const StepView&) override { return stop(); }
+  [[nodiscard]] std::vector<Request> respond_to_limit(const StepView&) override { return stop(); }
+  [[nodiscard]] std::vector<Request> respond_to_rest(const StepView&) override { return stop(); }
+
+ private:
+  static std::vector<Request> stop() { return {Stop{RunStatus::neck_closes, "a neck closes"}}; }
+};
+
+TEST_F(RelaxTest, EndsForTheCauseThatAControllerFindsBehindAFailedStep) {
+  Explainer explainer;
+  FakeStepper stepper(steady);
+  stepper.failing_step = 3;
+  const auto outcome = run(stepper, {&explainer});
+  EXPECT_EQ(outcome.status, RunStatus::neck_closes);
+  EXPECT_EQ(outcome.reason, "a neck closes; then the fake fails");
+}
+
+TEST_F(RelaxTest, EndsForTheCauseThatAControllerFindsBehindALimit) {
+  Explainer explainer;
+  FakeStepper stepper(steady);
+  stop_.max_steps = 2;
+  const auto outcome = run(stepper, {&explainer});
+  EXPECT_EQ(outcome.status, RunStatus::neck_closes);
+  EXPECT_EQ(outcome.reason, "a neck closes; then stop.max_steps = 2 reached");
+}
+
+TEST_F(RelaxTest, DoesNotConvergeWhenAControllerObjects) {
+  Explainer explainer;
+  FakeStepper stepper([](long) { return 1e-5; });
+  const auto outcome = run(stepper, {&explainer});
+  EXPECT_EQ(outcome.status, RunStatus::neck_closes);
+  EXPECT_EQ(outcome.reason, "a neck closes");
+  EXPECT_EQ(stepper.finished, 0);
+}
+
 TEST_F(RelaxTest, EndsAsANumericalFailureWhenAStepFailsAndFinishesTheObservers) {
   FakeStepper stepper(steady);
   stepper.failing_step = 3;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "vesica/mesh/neck.hpp"
+#include "vesica/model/model.hpp"
+#include "vesica/problem/scales.hpp"
+#include "vesica/relax/controller.hpp"
+
+namespace vesica::relax {
+
+/// Ends a run in which a neck closes (RunStatus::neck_closes): the surface is about to change its
+/// topology, which no step can follow. With the length w = interface width, 0.2 R_c for a single
+/// phase, and the radius r = length / 2 pi of the shortest neck (mesh::find_neck):
+///
+///     r < 0.15 w, or
+///     r < 0.25 w when a step fails, a limit is hit, or after 100 steps in a row,
+///
+/// as long as the neck shrinks, so r is smaller than it was up to four steps before, and the
+/// vesicle moves, with a normal velocity without rigid motion above 0.03 (natural units): a thin
+/// neck at rest is an equilibrium. Where the smaller side is of one phase (95 % of its area) the
+/// reason tells that a domain buds.
+class NeckController final : public Controller {
+ public:
+  /// `scales` of the case give R_c and the unit of the velocity.
+  NeckController(const model::Model& model, const problem::Scales& scales);
+  [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
+  [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;
+  [[nodiscard]] std::vector<Request> respond_to_limit(const StepView& view) override;
+
+ private:
+  void look(const StepView& view);
+  /// The neck of the last look is thinner than this, shrinks, and the vesicle moves.
+  [[nodiscard]] bool closes(const StepView& view, double radius) const;
+  [[nodiscard]] std::vector<Request> stop_if_closing(const StepView& view) const;
+  [[nodiscard]] Stop stop(const StepView& view) const;
+
+  [[nodiscard]] double width(const StepView& view) const { return width_.value(view.state.time); }
+
+  model::Schedule width_;
+  problem::Scales scales_;
+  std::optional<mesh::Neck> neck_;
+  std::deque<double> radii_;  // of the last steps with a neck, the last one included
+  int thin_steps_ = 0;        // in a row
+};
+
+}  // namespace vesica::relax

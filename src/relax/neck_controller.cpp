@@ -1,0 +1,92 @@
+#include "vesica/relax/neck_controller.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <string>
+
+namespace vesica::relax {
+namespace {
+
+constexpr double closed_radius = 0.15;  // of the width
+constexpr double thin_radius = 0.25;
+constexpr double looked_for_radius = 0.3;
+constexpr double width_of_single_phase = 0.2;  // of R_c
+constexpr std::size_t compared_steps = 5;
+constexpr int max_thin_steps = 100;
+constexpr double slow = 0.03;  // as for the mesh near the equilibrium
+constexpr double one_phase = 0.95;
+
+/// "a neck closes" or, when one side is of one phase, "a domain of phase 2 buds".
+std::string what_closes(const mesh::Neck& neck, const problem::State& state) {
+  if (!neck.separates) return "a neck closes that does not cut the surface in two";
+  if (state.is_two_phase()) {
+    const auto is_phase_1 = (state.values.order_parameter.array() > 0).cast<double>();
+    const double share = (neck.side_areas.array() * is_phase_1).sum() / neck.smaller_area;
+    if (share > one_phase) return "a domain of phase 1 buds, its neck closes";
+    if (share < 1 - one_phase) return "a domain of phase 2 buds, its neck closes";
+  }
+  return "a neck closes";
+}
+
+}  // namespace
+
+NeckController::NeckController(const model::Model& model, const problem::Scales& scales)
+    : width_(model.is_two_phase ? model.material.interface_width
+                                : model::Schedule(width_of_single_phase * scales.length)),
+      scales_(scales) {}
+
+std::vector<Request> NeckController::respond(const StepView& view) {
+  look(view);
+  thin_steps_ = closes(view, thin_radius * width(view)) ? thin_steps_ + 1 : 0;
+  if (!closes(view, closed_radius * width(view)) && thin_steps_ < max_thin_steps) return {};
+  return {stop(view)};
+}
+
+std::vector<Request> NeckController::respond_to_failure(const StepView& view) {
+  return stop_if_closing(view);
+}
+
+std::vector<Request> NeckController::respond_to_limit(const StepView& view) {
+  return stop_if_closing(view);
+}
+
+std::vector<Request> NeckController::stop_if_closing(const StepView& view) const {
+  if (!closes(view, thin_radius * width(view))) return {};
+  return {stop(view)};
+}
+
+void NeckController::look(const StepView& view) {
+  neck_ = mesh::find_neck({view.state.triangulation, view.state.values.positions},
+                          2 * std::numbers::pi * looked_for_radius * width(view));
+  if (!neck_) {
+    radii_.clear();
+    return;
+  }
+  radii_.push_back(neck_->radius());
+  if (radii_.size() > compared_steps) radii_.pop_front();
+}
+
+bool NeckController::closes(const StepView& view, double radius) const {
+  if (!neck_ || neck_->radius() >= radius) return false;
+  const double unit = scales_.length * scales_.length / scales_.time();
+  return radii_.back() < radii_.front() &&
+         view.diagnostics.velocity.normal_rigid_free > slow * unit;
+}
+
+Stop NeckController::stop(const StepView& view) const {
+  const Eigen::Vector3d& x = neck_->centre;
+  std::string sides;
+  if (neck_->separates)
+    sides = fmt::format(", areas {:.4g} and {:.4g} on its sides", neck_->smaller_area,
+                        neck_->larger_area);
+  return {RunStatus::neck_closes,
+          fmt::format("{}: length {:.3g} (radius {:.3g}, {:.2f} of the {}) at ({:.4g}, {:.4g}, "
+                      "{:.4g}){}",
+                      what_closes(*neck_, view.state), neck_->length, neck_->radius(),
+                      neck_->radius() / width(view),
+                      view.state.is_two_phase() ? "interface width" : "length 0.2 R_c", x.x(),
+                      x.y(), x.z(), sides)};
+}
+
+}  // namespace vesica::relax
