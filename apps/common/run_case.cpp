@@ -17,6 +17,7 @@
 #include "vesica/relax/mesh_controller.hpp"
 #include "vesica/relax/neck_controller.hpp"
 #include "vesica/relax/relax.hpp"
+#include "vesica/relax/self_intersection_controller.hpp"
 #include "vesica/solve/make_stepper.hpp"
 
 namespace vesica {
@@ -33,8 +34,9 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
   relax::DampingController damping(config.damping, scales);
   relax::MeshController mesh(config.adaption, vesicle.model, scales);
   relax::NeckController neck(vesicle.model, scales);
+  relax::SelfIntersectionController intersection(config.output.every_steps);
   const std::array<relax::Observer*, 2> observers{&progress, &trajectory};
-  std::vector<relax::Controller*> controllers{&damping, &interrupt, &neck};
+  std::vector<relax::Controller*> controllers{&damping, &interrupt, &neck, &intersection};
   if (config.adaption.enabled) controllers.push_back(&mesh);
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);

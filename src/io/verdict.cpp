@@ -200,6 +200,8 @@ std::string_view status_name(relax::RunStatus status) {
       return "stopped";
     case relax::RunStatus::neck_closes:
       return "neck closes";
+    case relax::RunStatus::self_intersection:
+      return "self-intersection";
     case relax::RunStatus::interrupted:
       return "interrupted";
     case relax::RunStatus::numerical_failure:
@@ -217,6 +219,7 @@ int exit_status(const relax::Outcome& outcome) {
     case relax::RunStatus::step_limit:
     case relax::RunStatus::stopped:
     case relax::RunStatus::neck_closes:
+    case relax::RunStatus::self_intersection:
       return 1;
     case relax::RunStatus::interrupted:
       return 128 + (outcome.signal == 0 ? SIGINT : outcome.signal);

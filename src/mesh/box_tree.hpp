@@ -11,7 +11,8 @@
 
 namespace vesica::mesh {
 
-/// Binary tree of axis-parallel boxes over the boxes of numbered items, for searches by distance.
+/// Binary tree of axis-parallel boxes over the boxes of numbered items, for searches by distance
+/// and for overlaps.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Eigen::AlignedBox3d> boxes);
@@ -20,6 +21,10 @@ class BoxTree {
   /// out those whose box is not nearer than that.
   template <class Visit>
   void search(const Eigen::Vector3d& point, Visit visit) const;
+
+  /// Calls visit(item) for every item whose box meets `box`.
+  template <class Visit>
+  void visit_meeting(const Eigen::AlignedBox3d& box, Visit visit) const;
 
  private:
   struct Node {
@@ -67,6 +72,24 @@ void BoxTree::search(const Eigen::Vector3d& point, Visit visit) const {
       push(left, to_left);
       push(node.right, to_right);
     }
+  }
+}
+
+template <class Visit>
+void BoxTree::visit_meeting(const Eigen::AlignedBox3d& box, Visit visit) const {
+  std::array<std::int32_t, max_depth> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const std::int32_t place = stack[--size];
+    const Node& node = nodes_[static_cast<std::size_t>(place)];
+    if (!node.box.intersects(box)) continue;
+    if (node.item >= 0) {
+      visit(node.item);
+      continue;
+    }
+    stack[size++] = node.right;
+    stack[size++] = place + 1;
   }
 }
 
