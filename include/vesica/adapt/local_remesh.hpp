@@ -1,19 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
-#include "vesica/mesh/surface_locator.hpp"
+#include "vesica/adapt/remeshed.hpp"
 #include "vesica/mesh/triangulation.hpp"
 
 namespace vesica::adapt {
-
-/// A new mesh of an old surface.
-struct Remeshed {
-  mesh::Surface surface;
-  /// Where each new node lies on the old surface; see transfer.hpp.
-  std::vector<mesh::SurfaceLocation> origins;
-};
 
 /// Meshes a surface anew with edges about as long as `sizes` [length], one at each node of `old`
 /// (positive; see size_field.hpp), for any genus. On the vertex triangulation, 8 times or until

@@ -1,0 +1,152 @@
+#include "mergers.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "editable_mesh.hpp"
+#include "vesica/mesh/quality.hpp"
+
+namespace vesica::adapt {
+namespace {
+
+/// Quality that a merged triangle may have even if its children were better.
+constexpr double fair_quality = 0.3;
+
+/// Local nodes of the flat triangles of (3.5).
+constexpr std::array<std::array<std::size_t, 3>, 4> parts = {
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+
+std::array<Eigen::Vector3d, 3> part_of(const mesh::Positions& x,
+                                       const mesh::QuadraticTriangle& nodes,
+                                       const std::array<std::size_t, 3>& part) {
+  return {x.row(nodes[part[0]]), x.row(nodes[part[1]]), x.row(nodes[part[2]])};
+}
+
+double quality_of(const mesh::Positions& x, const mesh::QuadraticTriangle& nodes) {
+  double quality = 1;
+  for (const auto& part : parts)
+    quality = std::min(quality, mesh::smallest_sine(part_of(x, nodes, part)));
+  return quality;
+}
+
+Eigen::Vector3d normal_of(const mesh::Positions& x, const mesh::QuadraticTriangle& nodes,
+                          const std::array<std::size_t, 3>& part) {
+  const auto corners = part_of(x, nodes, part);
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
+/// The parent of two neighbours with the same newest vertex, its own newest vertex last.
+std::optional<mesh::QuadraticTriangle> parent_of(const mesh::QuadraticTriangle& one,
+                                                 const mesh::QuadraticTriangle& other) {
+  if (other[1] == one[0])
+    return mesh::QuadraticTriangle{one[1], other[0], one[0], one[2], other[3], one[3]};
+  if (one[1] == other[0]) return parent_of(other, one);
+  return std::nullopt;
+}
+
+/// Finds mergers one after the other, with what earlier ones have changed.
+class MergerFinder {
+ public:
+  MergerFinder(const mesh::Surface& surface, std::span<const Mark> marks,
+               const BisectedEdges& edges)
+      : surface_(surface),
+        marks_(marks),
+        edges_(edges),
+        mesh_(corners_of(*surface.triangulation), surface.triangulation->num_nodes()) {
+    valences_.reserve(static_cast<std::size_t>(mesh_.num_vertices()));
+    for (NodeIndex v = 0; v < mesh_.num_vertices(); ++v) valences_.push_back(mesh_.valence(v));
+  }
+
+  [[nodiscard]] std::vector<Merger> find() {
+    std::vector<Merger> found;
+    for (NodeIndex v = 0; v < mesh_.num_vertices(); ++v) {
+      if (const auto merger = candidate(v); merger && try_add(*merger)) found.push_back(*merger);
+    }
+    return found;
+  }
+
+ private:
+  const mesh::QuadraticTriangle& triangle(NodeIndex t) const {
+    return surface_.triangulation->triangles()[static_cast<std::size_t>(t)];
+  }
+
+  static std::vector<Corners> corners_of(const mesh::Triangulation& triangulation) {
+    std::vector<Corners> corners;
+    corners.reserve(triangulation.triangles().size());
+    for (const auto& nodes : triangulation.triangles())
+      corners.push_back({nodes[0], nodes[1], nodes[2]});
+    return corners;
+  }
+
+  [[nodiscard]] bool may_go(NodeIndex t) const {
+    const auto is_bisected = [&](NodeIndex middle) {
+      return edges_.has_node[static_cast<std::size_t>(middle)];
+    };
+    const mesh::QuadraticTriangle& nodes = triangle(t);
+    return marks_[static_cast<std::size_t>(t)] == Mark::coarsen && !is_bisected(nodes[3]) &&
+           !is_bisected(nodes[4]) && !is_bisected(nodes[5]);
+  }
+
+  [[nodiscard]] std::optional<Merger> candidate(NodeIndex v) const {
+    if (mesh_.valence(v) != 4) return std::nullopt;
+    std::array<NodeIndex, 4> star{};
+    std::copy(mesh_.star(v).begin(), mesh_.star(v).end(), star.begin());
+    std::sort(star.begin(), star.end());  // children of one parent follow each other
+    for (const NodeIndex t : star) {
+      if (triangle(t)[2] != v || !may_go(t)) return std::nullopt;
+    }
+    const auto first = parent_of(triangle(star[0]), triangle(star[1]));
+    const auto second = parent_of(triangle(star[2]), triangle(star[3]));
+    if (!first || !second) return std::nullopt;
+    const Merger merger{{{{star[0], star[1]}, {star[2], star[3]}}}, {*first, *second}};
+    return is_fit(merger, 0) && is_fit(merger, 1) ? std::optional(merger) : std::nullopt;
+  }
+
+  [[nodiscard]] bool is_fit(const Merger& merger, std::size_t pair) const {
+    const mesh::Positions& x = surface_.positions;
+    const mesh::QuadraticTriangle& parent = merger.parents[pair];
+    double present = 1;
+    const Eigen::Vector3d normal = normal_of(x, parent, {0, 1, 2});
+    for (const NodeIndex t : merger.children[pair]) {
+      present = std::min(present, quality_of(x, triangle(t)));
+      if (normal_of(x, triangle(t), {0, 1, 2}).dot(normal) <= 0) return false;
+    }
+    for (const auto& part : parts) {
+      if (normal_of(x, parent, part).dot(normal) <= 0) return false;
+    }
+    return quality_of(x, parent) >= std::min(present, fair_quality);
+  }
+
+  bool try_add(const Merger& merger) {
+    const NodeIndex a = merger.parents[0][0];
+    const NodeIndex b = merger.parents[0][1];
+    const NodeIndex left = merger.parents[0][2];
+    const NodeIndex right = merger.parents[1][2];
+    int& valence_left = valences_[static_cast<std::size_t>(left)];
+    int& valence_right = valences_[static_cast<std::size_t>(right)];
+    if (left == right || valence_left <= 3 || valence_right <= 3 || mesh_.sides(a, b)) return false;
+    const auto [low, high] = std::minmax(a, b);
+    if (!new_edges_.insert({low, high}).second) return false;
+    --valence_left;
+    --valence_right;
+    return true;
+  }
+
+  const mesh::Surface& surface_;
+  std::span<const Mark> marks_;
+  const BisectedEdges& edges_;
+  EditableMesh mesh_;
+  std::vector<int> valences_;
+  std::set<mesh::Edge> new_edges_;
+};
+
+}  // namespace
+
+std::vector<Merger> find_mergers(const mesh::Surface& surface, std::span<const Mark> marks,
+                                 const BisectedEdges& edges) {
+  return MergerFinder(surface, marks, edges).find();
+}
+
+}  // namespace vesica::adapt
