@@ -14,7 +14,7 @@
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/trajectory_writer.hpp"
 #include "vesica/relax/damping_controller.hpp"
-#include "vesica/relax/mesh_controller.hpp"
+#include "vesica/relax/make_mesh_controller.hpp"
 #include "vesica/relax/neck_controller.hpp"
 #include "vesica/relax/relax.hpp"
 #include "vesica/relax/self_intersection_controller.hpp"
@@ -32,12 +32,12 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
   io::TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
-  relax::MeshController mesh(config.adaption, vesicle.model, scales);
+  const auto mesh = relax::make_mesh_controller(config.adaption, vesicle.model, scales);
   relax::NeckController neck(vesicle.model, scales);
   relax::SelfIntersectionController intersection(config.output.every_steps);
   const std::array<relax::Observer*, 2> observers{&progress, &trajectory};
   std::vector<relax::Controller*> controllers{&damping, &interrupt, &neck, &intersection};
-  if (config.adaption.enabled) controllers.push_back(&mesh);
+  if (config.adaption.enabled) controllers.push_back(mesh.get());
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };

@@ -159,6 +159,20 @@ std::string_view moving_key(const Options& options) {
   return find_motion.key;
 }
 
+/// Names of the fields that differ from their defaults.
+std::vector<std::string> changed_keys(const relax::AdaptionOptions& options) {
+  const relax::AdaptionOptions defaults;
+  std::vector<std::string> texts;
+  relax::AdaptionOptions::fields(
+      defaults, [&](const Field&, const auto& value) { texts.push_back(toml_text(value)); });
+  std::vector<std::string> keys;
+  std::size_t i = 0;
+  relax::AdaptionOptions::fields(options, [&](const Field& field, const auto& value) {
+    if (toml_text(value) != texts[i++]) keys.emplace_back(field.name);
+  });
+  return keys;
+}
+
 void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
   const auto refuse = [&document](std::string_view table, std::string_view key,
                                   std::string_view rule) {
@@ -180,6 +194,13 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     const auto target = moving_key(config.constraints);
     if (!material.empty()) refuse("material", material, rule);
     if (!target.empty()) refuse("constraints", target, rule);
+  }
+  for (const std::string& key : changed_keys(config.adaption)) {
+    if (!relax::belongs_to(config.adaption.method, key)) {
+      refuse("adaption", key,
+             fmt::format("means nothing with adaption.method = \"{}\"",
+                         name_of(config.adaption.method)));
+    }
   }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "vesica/adapt/size_field.hpp"
@@ -20,7 +21,23 @@ constexpr double slow = 0.03;  // velocities in natural units
 constexpr double moving = 0.3;
 constexpr int max_changes_after_failures = 5;
 
+constexpr std::array<std::string_view, 5> local_keys = {"curvature_angle", "interface_size",
+                                                        "final_curvature_angle",
+                                                        "final_interface_size", "min_steps"};
+constexpr std::array<std::string_view, 4> bisection_keys = {"n_in", "n_off", "n_kappa", "every"};
+
+template <std::size_t n>
+bool has(const std::array<std::string_view, n>& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 }  // namespace
+
+bool belongs_to(MeshMethod method, std::string_view key) {
+  if (has(local_keys, key)) return method == MeshMethod::local;
+  if (has(bisection_keys, key)) return method != MeshMethod::local;
+  return key != "conformal_quality" || method == MeshMethod::conformal;
+}
 
 MeshController::MeshController(const AdaptionOptions& options, model::Model model,
                                const problem::Scales& scales)
@@ -49,21 +66,18 @@ std::vector<Request> MeshController::respond_to_rest(const StepView& view) {
   return ask(view, "the vesicle is in equilibrium");
 }
 
-Remesh MeshController::request(std::string reason) const {
-  Remesh remesh;
-  remesh.sizes.max_size = options_.max_size * scales_.length;
-  remesh.sizes.curvature_angle =
-      is_final_ ? options_.final_curvature_angle : options_.curvature_angle;
-  remesh.sizes.interface_size = is_final_ ? options_.final_interface_size : options_.interface_size;
-  remesh.max_nodes = options_.max_nodes;
-  remesh.reason = std::move(reason);
-  return remesh;
+adapt::SizeFieldOptions MeshController::size_options() const {
+  adapt::SizeFieldOptions sizes;
+  sizes.max_size = options_.max_size * scales_.length;
+  sizes.curvature_angle = is_final_ ? options_.final_curvature_angle : options_.curvature_angle;
+  sizes.interface_size = is_final_ ? options_.final_interface_size : options_.interface_size;
+  return sizes;
 }
 
 std::vector<Request> MeshController::ask(const StepView& view, std::string reason) {
   last_change_ = view.report.counts.steps;
   new_quality_.reset();
-  return {request(std::move(reason))};
+  return {Remesh{size_options(), static_cast<double>(options_.max_nodes), std::move(reason)}};
 }
 
 double MeshController::longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const {
@@ -73,7 +87,8 @@ double MeshController::longest_edge(const StepView& view, const Eigen::VectorXd&
 
 /// Why the mesh does not fit the surface.
 std::optional<std::string> MeshController::misfit(const StepView& view) const {
-  const Eigen::VectorXd sizes = wanted_sizes(model_, view.state, request({}));
+  const Eigen::VectorXd sizes =
+      wanted_sizes(model_, view.state, size_options(), options_.max_nodes);
   const double edge = longest_edge(view, sizes);
   if (edge > emergency_edge) return fmt::format("an edge is {:.2f} of its size", edge);
   if (view.report.counts.steps - last_change_ < options_.min_steps) return std::nullopt;

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <utility>
+#include <variant>
 
+#include "vesica/adapt/bisection.hpp"
+#include "vesica/adapt/conformal_remesh.hpp"
 #include "vesica/adapt/local_remesh.hpp"
 #include "vesica/adapt/transfer.hpp"
 #include "vesica/fem/node_graph.hpp"
@@ -66,6 +69,59 @@ void restore(problem::State& state, const Eigen::VectorXd& targets) {
   state.values.order_parameter = std::move(restored.fields.order_parameter);
 }
 
+/// What the size of elements depends on.
+fem::NodalShapeOperator shape_operator_of(const problem::State& state) {
+  const fem::NodeGraph graph(*state.triangulation);
+  return fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
+}
+
+adapt::PhaseInterface phases_of(const model::Model& model, const problem::State& state) {
+  return {state.values.order_parameter, model.material.interface_width.value(state.time)};
+}
+
+mesh::Surface surface_of(const problem::State& state) {
+  return {state.triangulation, state.values.positions};
+}
+
+/// Makes the new mesh of a plan; absent when there is none that differs.
+struct Mesher {
+  const model::Model& model;
+  const problem::State& state;
+  double max_nodes;
+
+  std::optional<adapt::Remeshed> operator()(const adapt::SizeFieldOptions& sizes) const {
+    const mesh::Surface old = surface_of(state);
+    Eigen::VectorXd edges = wanted_sizes(model, state, sizes, max_nodes);
+    adapt::Remeshed changed = adapt::local_remesh(old, edges);
+    for (int attempt = 1; attempt < max_attempts; ++attempt) {
+      const double excess = changed.surface.triangulation->num_nodes() / max_nodes;
+      if (excess <= 1) break;
+      edges *= surplus * std::sqrt(excess);
+      changed = adapt::local_remesh(old, edges);
+    }
+    return changed;
+  }
+  std::optional<adapt::Remeshed> operator()(const BisectionPlan& plan) const {
+    adapt::Bisected bisected =
+        adapt::bisect(surface_of(state), wanted_marks(model, state, plan.marking, max_nodes));
+    if (!bisected.is_changed()) return std::nullopt;
+    return std::move(bisected.mesh);
+  }
+  std::optional<adapt::Remeshed> operator()(const ConformalPlan& plan) const {
+    return adapt::conformal_remesh(surface_of(state), shape_operator_of(state),
+                                   phases_of(model, state), plan.marking, max_nodes);
+  }
+};
+
+/// For the first bisection the state with its triangles turned; corners have no meaning otherwise.
+problem::State prepared(const problem::State& state, const MeshPlan& plan) {
+  problem::State result = state;
+  const auto* bisection = std::get_if<BisectionPlan>(&plan);
+  if (bisection != nullptr && bisection->is_first)
+    result.triangulation = adapt::with_longest_sides_first(surface_of(state)).triangulation;
+  return result;
+}
+
 /// The sizes of the smallest angle, from `fine` to coarsest_angle, that are within the limit; those
 /// of the largest when none is.
 template <class Sizes, class Limit>
@@ -90,44 +146,43 @@ Eigen::VectorXd finest(const Sizes& sizes_with, const Limit& is_within, double f
 }  // namespace
 
 Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
-                             const Remesh& remesh) {
-  const mesh::Surface surface{state.triangulation, state.values.positions};
-  const fem::NodeGraph graph(*state.triangulation);
-  const auto shape_operator =
-      fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
-  const adapt::PhaseInterface phases{state.values.order_parameter,
-                                     model.material.interface_width.value(state.time)};
+                             const adapt::SizeFieldOptions& options, double max_nodes) {
+  const mesh::Surface surface = surface_of(state);
+  const auto shape_operator = shape_operator_of(state);
+  const adapt::PhaseInterface phases = phases_of(model, state);
   const auto sizes_with = [&](double angle) {
-    auto options = remesh.sizes;
-    options.curvature_angle = angle;
-    return adapt::size_field(surface, shape_operator, phases, options);
+    auto changed = options;
+    changed.curvature_angle = angle;
+    return adapt::size_field(surface, shape_operator, phases, changed);
   };
   const auto is_within = [&](const Eigen::VectorXd& sizes) {
-    return adapt::wanted_nodes(surface, sizes) <= remesh.max_nodes;
+    return adapt::wanted_nodes(surface, sizes) <= max_nodes;
   };
-  return adapt::limited_sizes(surface, finest(sizes_with, is_within, remesh.sizes.curvature_angle),
-                              remesh.max_nodes);
+  return adapt::limited_sizes(surface, finest(sizes_with, is_within, options.curvature_angle),
+                              max_nodes);
+}
+
+std::vector<adapt::Mark> wanted_marks(const model::Model& model, const problem::State& state,
+                                      const adapt::BisectionOptions& marking, double max_nodes) {
+  const mesh::Surface surface = surface_of(state);
+  return adapt::marks(
+      surface,
+      adapt::wanted_diameters(surface, shape_operator_of(state), phases_of(model, state), marking),
+      max_nodes);
 }
 
 std::optional<problem::State> remeshed(const model::Model& model, const problem::State& state,
                                        const Remesh& remesh) {
-  const mesh::Surface old{state.triangulation, state.values.positions};
-  Eigen::VectorXd sizes = wanted_sizes(model, state, remesh);
-  adapt::Remeshed changed = adapt::local_remesh(old, sizes);
-  for (int attempt = 1; attempt < max_attempts; ++attempt) {
-    const double excess = changed.surface.triangulation->num_nodes() / remesh.max_nodes;
-    if (excess <= 1) break;
-    sizes *= surplus * std::sqrt(excess);
-    changed = adapt::local_remesh(old, sizes);
-  }
-  if (!is_usable(changed.surface)) return std::nullopt;
+  const problem::State old = prepared(state, remesh.plan);
+  const auto changed = std::visit(Mesher{model, old, remesh.max_nodes}, remesh.plan);
+  if (!changed || !is_usable(changed->surface)) return std::nullopt;
   problem::State result;
-  result.time = state.time;
-  result.damping = state.damping;
-  result.triangulation = changed.surface.triangulation;
-  result.values = carried_over(*state.triangulation, changed.origins, state.values);
-  result.rates = carried_over(*state.triangulation, changed.origins, state.rates);
-  restore(result, integrals_of(state));
+  result.time = old.time;
+  result.damping = old.damping;
+  result.triangulation = changed->surface.triangulation;
+  result.values = carried_over(*old.triangulation, changed->origins, old.values);
+  result.rates = carried_over(*old.triangulation, changed->origins, old.rates);
+  restore(result, integrals_of(old));
   return result;
 }
 

@@ -10,7 +10,7 @@
 #include "relaxation_cases.hpp"
 #include "vesica/io/case.hpp"
 #include "vesica/io/config.hpp"
-#include "vesica/relax/mesh_controller.hpp"
+#include "vesica/relax/make_mesh_controller.hpp"
 
 namespace vesica {
 namespace {
@@ -24,8 +24,8 @@ test::RelaxationResult run_adaptively(const std::string& name, std::vector<std::
   const auto scales = problem::scales_of(vesicle.model, vesicle.start);
   auto stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
-  relax::MeshController mesh(config.adaption, vesicle.model, scales);
-  const std::array<relax::Controller*, 2> controllers{&damping, &mesh};
+  const auto mesh = relax::make_mesh_controller(config.adaption, vesicle.model, scales);
+  const std::array<relax::Controller*, 2> controllers{&damping, mesh.get()};
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };

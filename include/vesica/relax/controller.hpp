@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "vesica/adapt/bisection.hpp"
 #include "vesica/adapt/size_field.hpp"
 #include "vesica/relax/observer.hpp"
 
@@ -21,9 +22,23 @@ struct Stop {
   int signal = 0;
 };
 
-/// A new mesh of the surface, with elements of these sizes and `max_nodes` nodes at most.
+/// One round of bisection and coarsening, adapt::bisect.
+struct BisectionPlan {
+  adapt::BisectionOptions marking;
+  bool is_first = false;  ///< the present mesh was not made by bisection
+};
+
+/// The conformal image of a sphere mesh, adapt::conformal_remesh.
+struct ConformalPlan {
+  adapt::BisectionOptions marking;
+};
+
+/// How a new mesh is made; sizes stand for adapt::local_remesh.
+using MeshPlan = std::variant<adapt::SizeFieldOptions, BisectionPlan, ConformalPlan>;
+
+/// A new mesh of the surface, with `max_nodes` nodes at most.
 struct Remesh {
-  adapt::SizeFieldOptions sizes;
+  MeshPlan plan;
   double max_nodes = 0;
   std::string reason;  ///< what follows "because" in the log
 };

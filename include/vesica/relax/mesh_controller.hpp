@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vesica/core/fields.hpp"
@@ -11,9 +14,30 @@
 
 namespace vesica::relax {
 
-/// Changes of the mesh during a run; sizes as in adapt::SizeFieldOptions.
+/// local: remeshing towards a size field; bisection: Section 3.5 of the paper; conformal: the same,
+/// and images of a sphere mesh where the quality falls, Section 3.6.
+enum class MeshMethod { local, bisection, conformal };
+
+}  // namespace vesica::relax
+
+namespace vesica {
+template <>
+struct EnumNames<relax::MeshMethod> {
+  static constexpr std::array<std::pair<relax::MeshMethod, std::string_view>, 3> names{
+      {{relax::MeshMethod::local, "local"},
+       {relax::MeshMethod::bisection, "bisection"},
+       {relax::MeshMethod::conformal, "conformal"}}};
+};
+}  // namespace vesica
+
+namespace vesica::relax {
+
+/// Changes of the mesh during a run; sizes as in adapt::SizeFieldOptions and
+/// adapt::BisectionOptions. Each method reads its own keys (see `belongs_to`), `max_size` and
+/// `max_nodes`.
 struct AdaptionOptions {
   bool enabled = false;
+  MeshMethod method = MeshMethod::local;
   double curvature_angle = 0.4;
   double interface_size = 0.85;
   double final_curvature_angle = 0.18;
@@ -21,35 +45,66 @@ struct AdaptionOptions {
   double max_size = 0.3;
   int max_nodes = 14000;
   int min_steps = 8;
+  double n_in = 1.6;
+  double n_off = 0.3;
+  double n_kappa = 0.4;
+  int every = 5;
+  double conformal_quality = 0.3;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     visit(Field{"enabled", "-",
                 "new meshes where the surface needs them; method ida with scheme paper only"},
           self.enabled);
-    visit(Field{"curvature_angle", "rad", "edge times curvature while the vesicle moves",
+    visit(Field{"method", "-",
+                "local (towards a size field), bisection (3.5) or conformal (bisection, and the "
+                "image of a sphere mesh, 3.6, for bad ones)"},
+          self.method);
+    visit(Field{"curvature_angle", "rad", "local: edge times curvature while the vesicle moves",
                 Rule::positive},
           self.curvature_angle);
     visit(Field{"interface_size", "-",
-                "edge in the phase interface over interface_width while the vesicle moves",
+                "local: edge in the phase interface over interface_width while the vesicle moves",
                 Rule::positive},
           self.interface_size);
-    visit(Field{"final_curvature_angle", "rad", "edge times curvature near the equilibrium",
+    visit(Field{"final_curvature_angle", "rad", "local: edge times curvature near the equilibrium",
                 Rule::positive},
           self.final_curvature_angle);
     visit(Field{"final_interface_size", "-",
-                "edge in the phase interface over interface_width near the equilibrium",
+                "local: edge in the phase interface over interface_width near the equilibrium",
                 Rule::positive},
           self.final_interface_size);
     visit(Field{"max_size", "R_c", "longest edge of an element", Rule::positive}, self.max_size);
     visit(Field{"max_nodes", "-", "elements are enlarged to stay within this number of nodes",
                 Rule::at_least_one},
           self.max_nodes);
-    visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
+    visit(Field{"min_steps", "-", "local: steps between changes of the mesh, but for emergencies",
                 Rule::at_least_one},
           self.min_steps);
+    visit(Field{"n_in", "-",
+                "bisection, conformal: interface_width over the diameter of elements in the phase "
+                "interface",
+                Rule::positive},
+          self.n_in);
+    visit(Field{"n_off", "-",
+                "bisection, conformal: interface_width over the diameter of elements elsewhere",
+                Rule::positive},
+          self.n_off);
+    visit(Field{"n_kappa", "-", "bisection, conformal: diameter of elements times curvature",
+                Rule::positive},
+          self.n_kappa);
+    visit(Field{"every", "-", "bisection, conformal: steps between changes of the mesh",
+                Rule::at_least_one},
+          self.every);
+    visit(Field{"conformal_quality", "-",
+                "conformal: quality (3.5) below which a sphere mesh is laid on the surface",
+                Rule::fraction},
+          self.conformal_quality);
   }
 };
+
+/// Whether a key of [adaption] means something for a method.
+[[nodiscard]] bool belongs_to(MeshMethod method, std::string_view key);
 
 /// Asks for a new mesh when the present one no longer fits. With L the wanted size of edges, coarse
 /// while the vesicle moves and fine near the equilibrium, at least min_steps after the last change:
@@ -71,7 +126,7 @@ class MeshController final : public Controller {
   [[nodiscard]] std::vector<Request> respond_to_rest(const StepView& view) override;
 
  private:
-  [[nodiscard]] Remesh request(std::string reason) const;
+  [[nodiscard]] adapt::SizeFieldOptions size_options() const;
   [[nodiscard]] std::vector<Request> ask(const StepView& view, std::string reason);
   [[nodiscard]] double longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const;
   [[nodiscard]] std::optional<std::string> misfit(const StepView& view) const;

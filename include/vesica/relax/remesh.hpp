@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "vesica/model/model.hpp"
 #include "vesica/problem/state.hpp"
@@ -10,16 +11,24 @@
 namespace vesica::relax {
 
 /// Wanted length of edges at each node of the state [length], shape (N): the size field of its
-/// recovered shape operator and order parameter. When it asks for more than `remesh.max_nodes`,
-/// first the curvature angle grows, up to 0.5, then all edges: the energy is more sensitive to the
-/// mesh in the interface.
+/// recovered shape operator and order parameter. When it asks for more than `max_nodes`, first the
+/// curvature angle grows, up to 0.5, then all edges: the energy is more sensitive to the mesh in
+/// the interface.
 [[nodiscard]] Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
-                                           const Remesh& remesh);
+                                           const adapt::SizeFieldOptions& options,
+                                           double max_nodes);
+
+/// What bisection would do with each triangle of the state, adapt::marks.
+[[nodiscard]] std::vector<adapt::Mark> wanted_marks(const model::Model& model,
+                                                    const problem::State& state,
+                                                    const adapt::BisectionOptions& marking,
+                                                    double max_nodes);
 
 /// The state on a new mesh of the same surface: positions, order parameter, curvature and rates
 /// interpolated, time, damping and multipliers kept, V, A and int h(c) restored to what they were.
 /// The new mesh has `remesh.max_nodes` nodes at most, unless the surface cannot do with so few.
-/// Absent when the new mesh has a fold or no quality: then the old one is better.
+/// Absent when the new mesh has a fold or no quality, since then the old one is better, and when
+/// bisection finds nothing to change.
 [[nodiscard]] std::optional<problem::State> remeshed(const model::Model& model,
                                                      const problem::State& state,
                                                      const Remesh& remesh);

@@ -186,6 +186,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"[adaption]\nenabled = true\n[solver]\nscheme = 'variational'",
                  "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\" and "
                  "solver.scheme = \"paper\", not \"ida\" and \"variational\""},
+        BadInput{"[adaption]\nn_kappa = 3",
+                 "case.toml:2:11: adaption.n_kappa = 3: means nothing with adaption.method = "
+                 "\"local\""},
+        BadInput{"[adaption]\nmethod = 'bisection'\nconformal_quality = 0.4",
+                 "case.toml:3:21: adaption.conformal_quality = 0.4: means nothing with "
+                 "adaption.method = \"bisection\""},
+        BadInput{"[adaption]\nmethod = 'conformal'\nmin_steps = 3",
+                 "case.toml:3:13: adaption.min_steps = 3: means nothing with adaption.method = "
+                 "\"conformal\""},
         BadInput{"[adaption]\nmax_nodes = 0",
                  "case.toml:2:13: adaption.max_nodes = 0: must be >= 1"},
         BadInput{"stop = 3", "case.toml:1:8: stop = 3: must be a table"}));

@@ -29,12 +29,11 @@ class MeshControllerTest : public ::testing::Test {
   void set_relative_edge(double ratio) { options_.curvature_angle = edge_for_unit_angle() / ratio; }
 
   [[nodiscard]] double edge_for_unit_angle() const {
-    Remesh unit;
-    unit.sizes.curvature_angle = 1;
-    unit.sizes.max_size = 100;
-    unit.max_nodes = 1e9;
+    adapt::SizeFieldOptions unit;
+    unit.curvature_angle = 1;
+    unit.max_size = 100;
     return adapt::longest_relative_edge({state_.triangulation, state_.values.positions},
-                                        wanted_sizes(model_, state_, unit));
+                                        wanted_sizes(model_, state_, unit, 1e9));
   }
 
   StepView view_at(long step) {
@@ -114,10 +113,11 @@ TEST_F(MeshControllerTest, AsksOnceForTheFineMeshNearTheEquilibrium) {
   diagnostics_.velocity.normal_rigid_free = 0.029 * 0.75;
   const auto requests = controller.respond(view_at(10));
   ASSERT_EQ(requests.size(), 1U);
-  const auto& remesh = std::get<Remesh>(requests.front());
-  EXPECT_EQ(remesh.sizes.curvature_angle, options_.final_curvature_angle);
-  EXPECT_EQ(remesh.sizes.interface_size, options_.final_interface_size);
-  EXPECT_EQ(remesh.sizes.max_size, 100);
+  const auto& plan = std::get<Remesh>(requests.front()).plan;
+  const auto& sizes = std::get<adapt::SizeFieldOptions>(plan);
+  EXPECT_EQ(sizes.curvature_angle, options_.final_curvature_angle);
+  EXPECT_EQ(sizes.interface_size, options_.final_interface_size);
+  EXPECT_EQ(sizes.max_size, 100);
   EXPECT_TRUE(controller.respond(view_at(30)).empty());
 }
 

@@ -74,7 +74,9 @@ TEST(Remesh, CarriesFieldsOverAndKeepsTheRest) {
 TEST(Remesh, StaysNearTheLargestNumberOfNodes) {
   const auto c = smooth_case();
   auto fine = request();
-  fine.sizes.curvature_angle = 0.05;
+  adapt::SizeFieldOptions sizes;
+  sizes.curvature_angle = 0.05;
+  fine.plan = sizes;
   fine.max_nodes = 1500;
   const auto changed = remeshed(c.model, c.start, fine);
   ASSERT_TRUE(changed.has_value());
