@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -18,8 +16,6 @@
 
 namespace vesica::adapt {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 mesh::Surface shape(mesh::ShapeKind kind, int resolution) {
   mesh::ShapeOptions options;
