@@ -65,9 +65,9 @@ TEST_P(RunInTime, EndsWhereARampOfTheMaterialEnds) {
 
 TEST_P(RunInTime, EndsWhereTheLastStageEnds) {
   auto c = cigar();
-  c.model.material.line_tension = 3;
+  c.model.material.line_tension = 2;
   const auto direct = run(c);
-  c.model.material.line_tension = Schedule::points(ScheduleKind::stages, {0, 0.05, 0.1}, {1, 5, 3});
+  c.model.material.line_tension = Schedule::points(ScheduleKind::stages, {0, 0.05, 0.1}, {1, 3, 2});
   const auto staged = run(c);
   EXPECT_GT(staged.state.time, 0.1);
   expect_same_end(staged, direct, tolerance);
