@@ -95,7 +95,7 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
   const double quality = view.diagnostics.quality;
   if (quality < low_quality && quality < lost_quality * *new_quality_)
     return fmt::format("the quality fell to {:.2f}", quality);
-  if (edge > long_edge) return fmt::format("an edge is {:.2f} of its size", edge);
+  if (!is_final_ && edge > long_edge) return fmt::format("an edge is {:.2f} of its size", edge);
   const mesh::Surface surface{view.state.triangulation, view.state.values.positions};
   const double wanted = adapt::wanted_nodes(surface, sizes);
   if (wanted < surplus_nodes * surface.triangulation->num_nodes())

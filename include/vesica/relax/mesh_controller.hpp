@@ -110,7 +110,7 @@ struct AdaptionOptions {
 /// while the vesicle moves and fine near the equilibrium, at least min_steps after the last change:
 ///
 ///     quality (3.5) below 0.3 and below 0.75 of what it was after the last change
-///     an edge longer than 1.9 L
+///     an edge longer than 1.9 L (of coarse meshes: a new mesh disturbs what is near rest)
 ///     fewer than 0.55 of the nodes are wanted
 ///     once, normal velocity without rigid motion below 0.03 (natural units): the fine mesh, until
 ///     the velocity is above 0.3 again
