@@ -53,7 +53,10 @@ std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> fra
       "<Xdmf Version=\"2.0\">\n"
       "  <Domain>\n"
       "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const XdmfFrame& frame : frames) text += frame_text(hdf5_name, frame);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool is_replaced = i + 1 < frames.size() && frames[i + 1].time == frames[i].time;
+    if (!is_replaced) text += frame_text(hdf5_name, frames[i]);
+  }
   return text +
          "    </Grid>\n"
          "  </Domain>\n"

@@ -18,7 +18,8 @@ struct XdmfFrame {
 };
 
 /// XDMF text: a temporal collection of quadratic triangles whose arrays stand in `hdf5_name`, a
-/// file in the same folder.
+/// file in the same folder. Of frames at one time (before and after a change of the mesh) the last:
+/// ParaView shows one grid at a time.
 [[nodiscard]] std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> frames);
 
 }  // namespace vesica::io

@@ -214,6 +214,19 @@ TEST(TrajectoryWriter, AChangeOfTheMeshGetsAFrameAndItsReason) {
   EXPECT_EQ(file.numbers("/series/step").size(), 1U);  // a row is a step
 }
 
+TEST(TrajectoryWriter, ParaViewSeesOneFrameAtATime) {
+  const TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  writer.mesh_changed({run.state, run.report, run.measured},
+                      {0, run.state.time, 18, 18, 0.25, 0.5, "the test asks"});
+  run.finish(writer);
+  const auto text = text_of(folder.path() / "trajectory.xdmf");
+  EXPECT_EQ(text.find("<Grid Name=\"/frames/000000\""), std::string::npos);
+  EXPECT_NE(text.find("<Grid Name=\"/frames/000001\""), std::string::npos);
+}
+
 TEST(TrajectoryWriter, EveryFrameHasItsDomainsInOneTable) {
   const TemporaryFolder folder;
   FakeRun run;
