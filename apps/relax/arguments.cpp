@@ -11,6 +11,9 @@ constexpr int bad_input = 2;
 void add_options(CLI::App& app, Arguments& arguments, std::string& rtol, bool& wants_template) {
   add_run_options(app, arguments.options);
   app.add_option("case", arguments.case_file, "case file")->type_name("CASE.toml");
+  app.add_option("--resume", arguments.resumed,
+                 "start from the final state of the run in this folder; time goes on")
+      ->type_name("DIR");
   app.add_option("--rtol", rtol, "relative tolerance of the time integration: solver.rtol")
       ->type_name("X");
   app.add_flag("--template", wants_template,

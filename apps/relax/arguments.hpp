@@ -12,6 +12,7 @@ namespace vesica {
 struct Arguments {
   std::string case_file;
   RunOptions options;
+  std::string resumed;  ///< folder of the run to go on with; empty: none
 };
 
 /// Arguments of a run, or the exit status when there is nothing to run (help, version, template,

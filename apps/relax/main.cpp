@@ -6,6 +6,7 @@
 #include "common/signals.hpp"
 #include "vesica/io/case.hpp"
 #include "vesica/io/config.hpp"
+#include "vesica/io/run_reader.hpp"
 #include "vesica/io/verdict.hpp"
 #include "vesica/relax/interrupt_controller.hpp"
 
@@ -15,7 +16,8 @@ namespace {
 int run(const Arguments& arguments) {
   const io::RunConfig config = read_config(arguments);
   check_run(config, arguments.case_file, arguments.options.overwrites);
-  const io::Case vesicle = io::make_case(config);
+  const io::Case vesicle = arguments.resumed.empty() ? io::make_case(config)
+                                                     : io::resumed_case(config, arguments.resumed);
   for (const std::string& warning : vesicle.warnings) std::cerr << "warning: " << warning << '\n';
   relax::InterruptController interrupt(catch_signals());
   const io::Verdict verdict =

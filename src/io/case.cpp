@@ -141,9 +141,27 @@ Eigen::VectorXd order_parameter_of(const RunConfig& config, const mesh::Surface&
                                 target ? std::optional(target->value(0)) : std::nullopt);
 }
 
+void check_topology(const RunConfig& config, const mesh::Triangulation& triangulation) {
+  const int pieces = triangulation.num_components();
+  if (pieces != 1) {
+    throw ConfigError(
+        fmt::format("shape.path = \"{}\": the surface has {} pieces: must be one vesicle",
+                    config.shape.path, pieces));
+  }
+  const int genus = 1 - triangulation.euler_characteristic() / 2;
+  if (config.adaption.enabled && config.adaption.method == relax::MeshMethod::conformal &&
+      genus != 0) {
+    throw ConfigError(fmt::format(
+        "adaption.method = \"conformal\": the surface has genus {}: must be 0; take \"local\" or "
+        "\"bisection\"",
+        genus));
+  }
+}
+
 }  // namespace
 
 Case case_of(const RunConfig& config, problem::State start) {
+  check_topology(config, *start.triangulation);
   const model::Measures measures = measures_of(start);
   Case vesicle;
   vesicle.model = model_of(config, measures);

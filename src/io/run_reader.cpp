@@ -253,4 +253,19 @@ FinishedRun read_run(const fs::path& folder) {
   return run;
 }
 
+Case resumed_case(const RunConfig& config, const fs::path& folder) {
+  check_has_ended(folder);
+  const hdf5::ReadableFile file(folder / "trajectory.h5");
+  const FrameReader frames(file);
+  problem::State first = frames.first();
+  if (first.is_two_phase() != config.phase.has_value()) {
+    throw ConfigError(fmt::format("{}: the run has {} phase field, the case has {}",
+                                  folder.string(), config.phase ? "no" : "a",
+                                  config.phase ? "one" : "none"));
+  }
+  Case vesicle = case_of(config, std::move(first));
+  vesicle.start = frames.last();
+  return vesicle;
+}
+
 }  // namespace vesica::io

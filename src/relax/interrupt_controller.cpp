@@ -25,4 +25,8 @@ std::vector<Request> InterruptController::respond(const StepView& view) {
       signal}};
 }
 
+std::vector<Request> InterruptController::respond_to_failure(const StepView& view) {
+  return respond(view);
+}
+
 }  // namespace vesica::relax

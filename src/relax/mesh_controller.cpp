@@ -99,7 +99,7 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
   const mesh::Surface surface{view.state.triangulation, view.state.values.positions};
   const double wanted = adapt::wanted_nodes(surface, sizes);
   if (wanted < surplus_nodes * surface.triangulation->num_nodes())
-    return fmt::format("{:.0f} nodes are enough", wanted);
+    return fmt::format("{:.0f} nodes are wanted", wanted);
   return std::nullopt;
 }
 

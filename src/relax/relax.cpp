@@ -154,6 +154,9 @@ class Run {
   std::optional<Stop> respond_to_failure() {
     const std::string failure = report_.reason;
     const Answers answers = ask(&Controller::respond_to_failure);
+    const bool is_interrupted = answers.stop && answers.stop->status == RunStatus::interrupted;
+    if (is_interrupted) return answers.stop;
+    if (const auto limit = respond_to_limit()) return limit;
     if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
     return explained({RunStatus::numerical_failure, failure}, answers.stop);
   }

@@ -24,8 +24,12 @@ constexpr int angle_halvings = 6;
 constexpr int max_attempts = 4;    // to stay within max_nodes
 constexpr double surplus = 1.005;  // of the edges, in another attempt
 
+double quality_of(const mesh::Surface& surface) {
+  return mesh::quality(*surface.triangulation, surface.positions);
+}
+
 bool is_usable(const mesh::Surface& surface) {
-  return mesh::quality(*surface.triangulation, surface.positions) > smallest_quality &&
+  return quality_of(surface) > smallest_quality &&
          mesh::smallest_normal_cosine(*surface.triangulation, surface.positions) >
              smallest_normal_cosine;
 }
@@ -176,6 +180,10 @@ std::optional<problem::State> remeshed(const model::Model& model, const problem:
   const problem::State old = prepared(state, remesh.plan);
   const auto changed = std::visit(Mesher{model, old, remesh.max_nodes}, remesh.plan);
   if (!changed || !is_usable(changed->surface)) return std::nullopt;
+  if (std::holds_alternative<ConformalPlan>(remesh.plan) &&
+      quality_of(changed->surface) <= quality_of(surface_of(old))) {
+    return std::nullopt;
+  }
   problem::State result;
   result.time = old.time;
   result.damping = old.damping;

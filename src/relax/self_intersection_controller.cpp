@@ -17,6 +17,10 @@ std::vector<Request> SelfIntersectionController::respond_to_rest(const StepView&
   return look(view);
 }
 
+std::vector<Request> SelfIntersectionController::respond_to_limit(const StepView& view) {
+  return look(view);
+}
+
 std::vector<Request> SelfIntersectionController::look(const StepView& view) {
   const auto first =
       mesh::self_intersections({view.state.triangulation, view.state.values.positions}, 1);

@@ -18,7 +18,8 @@ struct Case {
 };
 
 /// Surface, initial phase, targets and material of the configuration. Throws ConfigError when they
-/// do not fit together, IoError when a surface or phase file cannot be read.
+/// do not fit together, the surface has several pieces or no mesh method for its genus, IoError
+/// when a surface or phase file cannot be read.
 [[nodiscard]] Case make_case(const RunConfig& config);
 
 /// The same with a start that is there already: positions and, for two phases, order parameter.

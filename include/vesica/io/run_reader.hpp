@@ -31,6 +31,11 @@ struct FinishedRun {
 /// other, ConfigError for a wrong `case.toml`.
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
 
+/// The case of `config` with the final state of the run in `folder` as its start, rates and
+/// multipliers included; time goes on. Targets that begin at "initial" begin where that run began.
+/// Throws what read_run throws, and ConfigError when one has a phase field and the other not.
+[[nodiscard]] Case resumed_case(const RunConfig& config, const std::filesystem::path& folder);
+
 /// The energy history of a run that has ended. Throws IoError.
 [[nodiscard]] EnergyHistory read_history(const std::filesystem::path& folder);
 

@@ -96,7 +96,9 @@ struct ShapeOptions {
           self.tip_height);
     visit(Field{"tip_width", "rad", "tips: angular width of a tip", Rule::positive},
           self.tip_width);
-    visit(Field{"path", "-", "file: closed triangulated surface, .off or .obj"}, self.path);
+    visit(Field{"path", "-",
+                "file: closed triangulated surface, .off or .obj; relative to the current folder"},
+          self.path);
     visit(Field{"flip", "-", "file: turn a surface that is inside out"}, self.flip);
   }
 };

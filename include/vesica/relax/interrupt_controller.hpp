@@ -15,6 +15,7 @@ class InterruptController final : public Controller {
   /// none. It must outlive the controller.
   explicit InterruptController(const std::atomic<int>& signal) : signal_(signal) {}
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
+  [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;
 
  private:
   const std::atomic<int>& signal_;

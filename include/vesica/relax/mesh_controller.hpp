@@ -75,7 +75,9 @@ struct AdaptionOptions {
                 Rule::positive},
           self.final_interface_size);
     visit(Field{"max_size", "R_c", "longest edge of an element", Rule::positive}, self.max_size);
-    visit(Field{"max_nodes", "-", "elements are enlarged to stay within this number of nodes",
+    visit(Field{"max_nodes", "-",
+                "elements are enlarged to stay within this number of nodes, as far as the surface "
+                "allows",
                 Rule::at_least_one},
           self.max_nodes);
     visit(Field{"min_steps", "-", "local: steps between changes of the mesh, but for emergencies",

@@ -27,8 +27,8 @@ namespace vesica::relax {
 /// The state on a new mesh of the same surface: positions, order parameter, curvature and rates
 /// interpolated, time, damping and multipliers kept, V, A and int h(c) restored to what they were.
 /// The new mesh has `remesh.max_nodes` nodes at most, unless the surface cannot do with so few.
-/// Absent when the new mesh has a fold or no quality, since then the old one is better, and when
-/// bisection finds nothing to change.
+/// Absent when the new mesh has a fold or no quality, or a conformal image less than the old mesh,
+/// since then the old one is better, and when bisection finds nothing to change.
 [[nodiscard]] std::optional<problem::State> remeshed(const model::Model& model,
                                                      const problem::State& state,
                                                      const Remesh& remesh);

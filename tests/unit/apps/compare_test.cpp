@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "io/json_reader.hpp"
+#include "program_test.hpp"
 #include "programs.hpp"
 
 namespace vesica {
@@ -30,32 +24,10 @@ rtol = 1e-2
 normal_velocity = 1e-2
 )";
 
-class CompareTest : public ::testing::Test {
+class CompareTest : public test::ProgramTest {
  protected:
-  CompareTest() {
-    std::string pattern = (fs::temp_directory_path() / "vesica-test-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = pattern;
-    std::ofstream(folder_ / "prolate.toml") << prolate_case;
-  }
-  ~CompareTest() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
-  /// Exit status of `vesica-compare <arguments>` in the temporary folder; its output is kept.
-  int compare(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && '" + program_compare + "' " +
-                                arguments + " > output.txt 2>&1";
-    const int status = std::system(command.c_str());
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "output.txt").rdbuf();
-    output_ = text.str();
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  fs::path folder_;
-  std::string output_;
+  CompareTest() { write("prolate.toml", prolate_case); }
+  int compare(const std::string& arguments) { return run(program_compare, arguments); }
 };
 
 /// Two flows with different tolerances in place of flow and minimiser.

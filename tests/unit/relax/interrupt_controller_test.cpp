@@ -24,6 +24,7 @@ TEST(InterruptController, AsksToStopOnceASignalHasArrived) {
   EXPECT_EQ(stop.status, RunStatus::interrupted);
   EXPECT_EQ(stop.signal, SIGTERM);
   EXPECT_EQ(stop.reason, "SIGTERM received after step 7");
+  EXPECT_EQ(controller.respond_to_failure({state, report, measured}).size(), 1U);
 }
 
 }  // namespace

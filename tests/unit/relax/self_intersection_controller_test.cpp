@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "vesica/mesh/shapes.hpp"
 
@@ -14,8 +15,10 @@ namespace {
 /// A unit sphere whose north pole is pushed down, through the south from a depth of 2 on.
 class SelfIntersectionControllerTest : public ::testing::Test {
  protected:
-  std::string answer(SelfIntersectionController& controller, long step, double depth,
-                     bool at_rest = false) {
+  using Response = std::vector<Request> (Controller::*)(const StepView& view);
+
+  std::string answer(Controller& controller, long step, double depth,
+                     Response response = &Controller::respond) {
     mesh::ShapeOptions options;
     options.kind = mesh::ShapeKind::sphere;
     options.resolution = 12;
@@ -28,8 +31,7 @@ class SelfIntersectionControllerTest : public ::testing::Test {
     solve::StepReport report;
     report.counts.steps = step;
     const problem::Diagnostics measured;
-    const StepView view{state, report, measured};
-    const auto requests = at_rest ? controller.respond_to_rest(view) : controller.respond(view);
+    const auto requests = (controller.*response)({state, report, measured});
     if (requests.empty()) return "nothing";
     const auto& stop = std::get<Stop>(requests.front());
     EXPECT_EQ(stop.status, RunStatus::self_intersection);
@@ -47,10 +49,11 @@ TEST_F(SelfIntersectionControllerTest, EndsTheRunAtAFrameAndTellsWhere) {
   EXPECT_TRUE(reason.ends_with("); free of it after step 5")) << reason;
 }
 
-TEST_F(SelfIntersectionControllerTest, LooksOnceMoreAtRest) {
+TEST_F(SelfIntersectionControllerTest, LooksOnceMoreAtRestAndAtALimit) {
   SelfIntersectionController controller(5);
-  EXPECT_EQ(answer(controller, 7, 1.9, true), "nothing");
-  EXPECT_NE(answer(controller, 8, 2.3, true), "nothing");
+  EXPECT_EQ(answer(controller, 7, 1.9, &Controller::respond_to_rest), "nothing");
+  EXPECT_NE(answer(controller, 8, 2.3, &Controller::respond_to_rest), "nothing");
+  EXPECT_NE(answer(controller, 8, 2.3, &Controller::respond_to_limit), "nothing");
 }
 
 TEST_F(SelfIntersectionControllerTest, RefusesAStartThatCutsItself) {

@@ -1,0 +1,77 @@
+#include <filesystem>
+#include <string>
+
+#include "io/json_reader.hpp"
+#include "program_test.hpp"
+#include "programs.hpp"
+
+namespace vesica {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Deflated from 4.75 to 4.6 until t = 0.05.
+constexpr const char* deflated_case = R"(
+[shape]
+kind = "ellipsoid"
+semi_axes = [1.4, 0.9, 0.9]
+resolution = 2
+
+[constraints]
+volume = ["initial", 4.6, 0, 0.05]
+
+[solver]
+rtol = 1e-2
+
+[stop]
+normal_velocity = 1e-2
+)";
+
+class RelaxTest : public test::ProgramTest {
+ protected:
+  RelaxTest() { write("case.toml", deflated_case); }
+  int relax(const std::string& arguments) { return run(program_relax, arguments); }
+  [[nodiscard]] double verdict(const std::string& run, const std::string& key) const {
+    return io::JsonReader(folder_ / run / "verdict.json").number(key);
+  }
+};
+
+TEST_F(RelaxTest, GoesOnWithARunThatStoppedInTheMiddleOfARamp) {
+  ASSERT_EQ(relax("case.toml --set stop.end_time=0.02 --out first"), 1) << output_;
+  EXPECT_GT(verdict("first", "/shape/volume"), 4.65);
+  ASSERT_EQ(relax("case.toml --resume first --out second"), 0) << output_;
+  EXPECT_NEAR(verdict("second", "/shape/volume"), 4.6, 1e-7);
+  ASSERT_EQ(relax("case.toml --out whole"), 0) << output_;
+  EXPECT_NEAR(verdict("second", "/energy/total"), verdict("whole", "/energy/total"), 1e-2);
+}
+
+TEST_F(RelaxTest, RefusesToGoOnWithARunOfAnotherKind) {
+  ASSERT_EQ(relax("case.toml --set stop.max_steps=1 --out first"), 1) << output_;
+  EXPECT_EQ(relax("case.toml --set phase.kind=ramp --set phase.match_target=false --resume first "
+                  "--out second"),
+            2);
+  EXPECT_NE(output_.find("the run has no phase field, the case has one"), std::string::npos)
+      << output_;
+  EXPECT_EQ(relax("case.toml --resume nowhere --out second"), 4) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "second"));
+}
+
+TEST_F(RelaxTest, RefusesASurfaceThatTheMeshMethodOrTheModelCannotTake) {
+  EXPECT_EQ(relax("case.toml --set shape.kind=torus --set shape.resolution=4 --set "
+                  "adaption.enabled=true --set adaption.method=conformal --out torus"),
+            2);
+  EXPECT_NE(output_.find("adaption.method = \"conformal\": the surface has genus 1"),
+            std::string::npos)
+      << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "torus"));
+  // two tetrahedra
+  write("two.off",
+        "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n6 0 0\n5 1 0\n5 0 1\n"
+        "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n");
+  EXPECT_EQ(relax("case.toml --set shape.kind=file --set shape.path=two.off --out two"), 2);
+  EXPECT_NE(output_.find("the surface has 2 pieces: must be one vesicle"), std::string::npos)
+      << output_;
+}
+
+}  // namespace
+}  // namespace vesica
