@@ -134,7 +134,9 @@ void time_kernels(int resolution, Table& table) {
   table.add("residual (with Q_h)",
             smallest([&] { (void)problem.residual(settings, 0, y, rates); }));
   auto matrix = problem.make_matrix();
-  table.add("Jacobian", smallest([&] { problem.jacobian(settings, {1, 1000}, 0, y, rates, matrix); }));
+  table.add("Jacobian", smallest([&] {
+              problem.jacobian(settings, {1, 1000}, 0, y, rates, matrix);
+            }));
   for (const auto kind : kinds()) {
     const std::string name(name_of(kind));
     linalg::BorderedSolver solver(kind, matrix, problem.layout().block_size());
