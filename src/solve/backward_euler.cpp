@@ -17,6 +17,7 @@ constexpr int max_iterations = 8;
 constexpr int krylov_dimension = 20;
 constexpr double negligible_change = 1e-6;
 constexpr double linear_tolerance = 1e-3;  // of the norm of the right-hand side
+constexpr double difference = 1e-3;        // of the error allowed in a step; more is too curved
 
 /// The linear system at one Newton iterate, for SPGMR.
 struct LinearSystem {
@@ -48,7 +49,7 @@ struct LinearSystem {
     return guarded(data, [&](LinearSystem& self) {
       const Eigen::VectorXd direction = view(x);
       const double length = self.norm(direction);
-      const double sigma = length > 0 ? 0.1 / length : 1;
+      const double sigma = length > 0 ? difference / length : 1;
       const Eigen::VectorXd moved = self.y + sigma * direction;
       const auto there =
           self.system.residual(self.settings, self.step.time, moved, self.step.rates(moved));

@@ -15,8 +15,6 @@ namespace {
 using sundials::check;
 using sundials::view;
 
-constexpr double shorter_step = 0.03;
-
 // Polish of the weak form.
 constexpr int max_polish_steps = 12;
 constexpr double polish_step_growth = 8;
@@ -31,7 +29,7 @@ StepReport IdaStepper::finish() {
     try {
       if (options_.scheme == Scheme::variational && options_.polish) return polish_energy();
       if (options_.polish) return polish_weak_form();
-      if (options_.final_constraint_solve) meet_constraints();
+      if (options_.final_constraint_solve) take_implicit_step(last_step_size());
     } catch (const RecoverableError& trouble) {
       return report(StepStatus::failed, fmt::format("final solve: {}", trouble.what()));
     }
@@ -43,18 +41,6 @@ double IdaStepper::last_step_size() const {
   double size = 0;
   check(IDAGetLastStep(ida_.get(), &size), "IDAGetLastStep");
   return size;
-}
-
-/// Constraints are met by an implicit step as long as the last one. Where the surface has soft
-/// modes, as a torus along which domains slide, so long a step may be out of Newton's reach: then a
-/// shorter one.
-void IdaStepper::meet_constraints() {
-  const double size = last_step_size();
-  try {
-    take_implicit_step(size);
-  } catch (const RecoverableError&) {
-    take_implicit_step(shorter_step * size);
-  }
 }
 
 /// One backward-Euler step with the constraints themselves in place of (e). Throws RecoverableError
