@@ -4,13 +4,12 @@
 #include <memory>
 #include <utility>
 
+#include "vesica/mesh/local_nodes.hpp"
+
 namespace vesica::adapt {
 namespace {
 
 using mesh::NodeIndex;
-
-constexpr std::array<std::array<double, 2>, 6> node_places = {
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 
 /// A place of each old node in one of its triangles.
 std::vector<mesh::SurfaceLocation> own_places(const mesh::Surface& surface) {
@@ -18,7 +17,7 @@ std::vector<mesh::SurfaceLocation> own_places(const mesh::Surface& surface) {
   NodeIndex t = 0;
   for (const mesh::QuadraticTriangle& nodes : surface.triangulation->triangles()) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const auto [u, v] = node_places[i];
+      const auto [u, v] = mesh::node_parameters[i];
       places[static_cast<std::size_t>(nodes[i])] = {t, u, v, surface.positions.row(nodes[i]), 0};
     }
     ++t;

@@ -15,7 +15,18 @@ std::size_t place_of(const Corners& corners, NodeIndex vertex) {
                                   corners.begin());
 }
 
+std::vector<Corners> corners_of(const mesh::Triangulation& triangulation) {
+  std::vector<Corners> corners;
+  corners.reserve(triangulation.triangles().size());
+  for (const auto& nodes : triangulation.triangles())
+    corners.push_back({nodes[0], nodes[1], nodes[2]});
+  return corners;
+}
+
 }  // namespace
+
+EditableMesh::EditableMesh(const mesh::Triangulation& triangulation)
+    : EditableMesh(corners_of(triangulation), triangulation.num_nodes()) {}
 
 EditableMesh::EditableMesh(std::vector<Corners> triangles, NodeIndex num_vertices)
     : triangles_(std::move(triangles)), stars_(at(num_vertices)) {

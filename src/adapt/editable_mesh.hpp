@@ -20,6 +20,8 @@ class EditableMesh {
  public:
   /// Takes the corners of the triangles, whose numbers must be below `num_vertices`.
   EditableMesh(std::vector<Corners> triangles, NodeIndex num_vertices);
+  /// The corners of the elements; mid-edge nodes are vertices without triangles.
+  explicit EditableMesh(const mesh::Triangulation& triangulation);
 
   /// The two triangles at an edge and the vertices opposite to it: the first triangle runs from a
   /// to b, the second from b to a.

@@ -1,11 +1,11 @@
 #include "mergers.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <set>
 
 #include "editable_mesh.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 #include "vesica/mesh/quality.hpp"
 
 namespace vesica::adapt {
@@ -14,27 +14,16 @@ namespace {
 /// Quality that a merged triangle may have even if its children were better.
 constexpr double fair_quality = 0.3;
 
-/// Local nodes of the flat triangles of (3.5).
-constexpr std::array<std::array<std::size_t, 3>, 4> parts = {
-    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-
-std::array<Eigen::Vector3d, 3> part_of(const mesh::Positions& x,
-                                       const mesh::QuadraticTriangle& nodes,
-                                       const std::array<std::size_t, 3>& part) {
-  return {x.row(nodes[part[0]]), x.row(nodes[part[1]]), x.row(nodes[part[2]])};
-}
-
 double quality_of(const mesh::Positions& x, const mesh::QuadraticTriangle& nodes) {
   double quality = 1;
-  for (const auto& part : parts)
-    quality = std::min(quality, mesh::smallest_sine(part_of(x, nodes, part)));
+  for (const auto& local : mesh::sub_triangles)
+    quality = std::min(quality, mesh::smallest_sine(mesh::sub_triangle(nodes, local, x)));
   return quality;
 }
 
 Eigen::Vector3d normal_of(const mesh::Positions& x, const mesh::QuadraticTriangle& nodes,
-                          const std::array<std::size_t, 3>& part) {
-  const auto corners = part_of(x, nodes, part);
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+                          const std::array<std::size_t, 3>& local) {
+  return mesh::area_vector(mesh::sub_triangle(nodes, local, x));
 }
 
 /// The parent of two neighbours with the same newest vertex, its own newest vertex last.
@@ -51,10 +40,7 @@ class MergerFinder {
  public:
   MergerFinder(const mesh::Surface& surface, std::span<const Mark> marks,
                const BisectedEdges& edges)
-      : surface_(surface),
-        marks_(marks),
-        edges_(edges),
-        mesh_(corners_of(*surface.triangulation), surface.triangulation->num_nodes()) {
+      : surface_(surface), marks_(marks), edges_(edges), mesh_(*surface.triangulation) {
     valences_.reserve(static_cast<std::size_t>(mesh_.num_vertices()));
     for (NodeIndex v = 0; v < mesh_.num_vertices(); ++v) valences_.push_back(mesh_.valence(v));
   }
@@ -70,14 +56,6 @@ class MergerFinder {
  private:
   const mesh::QuadraticTriangle& triangle(NodeIndex t) const {
     return surface_.triangulation->triangles()[static_cast<std::size_t>(t)];
-  }
-
-  static std::vector<Corners> corners_of(const mesh::Triangulation& triangulation) {
-    std::vector<Corners> corners;
-    corners.reserve(triangulation.triangles().size());
-    for (const auto& nodes : triangulation.triangles())
-      corners.push_back({nodes[0], nodes[1], nodes[2]});
-    return corners;
   }
 
   [[nodiscard]] bool may_go(NodeIndex t) const {
@@ -113,8 +91,8 @@ class MergerFinder {
       present = std::min(present, quality_of(x, triangle(t)));
       if (normal_of(x, triangle(t), {0, 1, 2}).dot(normal) <= 0) return false;
     }
-    for (const auto& part : parts) {
-      if (normal_of(x, parent, part).dot(normal) <= 0) return false;
+    for (const auto& local : mesh::sub_triangles) {
+      if (normal_of(x, parent, local).dot(normal) <= 0) return false;
     }
     return quality_of(x, parent) >= std::min(present, fair_quality);
   }

@@ -19,15 +19,6 @@ constexpr double short_edge = 0.72;
 constexpr double rough_quality = 0.25;
 constexpr int max_valence = 9;
 
-std::vector<Corners> corners_of(const mesh::Triangulation& triangulation) {
-  std::vector<Corners> corners;
-  corners.reserve(triangulation.triangles().size());
-  for (const auto& nodes : triangulation.triangles()) {
-    corners.push_back({nodes[0], nodes[1], nodes[2]});
-  }
-  return corners;
-}
-
 int valence_defect(int valence) { return (valence - 6) * (valence - 6); }
 
 }  // namespace
@@ -35,7 +26,7 @@ int valence_defect(int valence) { return (valence - 6) * (valence - 6); }
 Remesher::Remesher(const mesh::SurfaceLocator& old, const Eigen::VectorXd& sizes)
     : old_(old),
       sizes_(sizes),
-      mesh_(corners_of(old.triangulation()), old.triangulation().num_nodes()),
+      mesh_(old.triangulation()),
       vertices_(static_cast<std::size_t>(old.triangulation().num_nodes())) {
   constexpr std::array<std::array<double, 2>, 3> parameters = {{{0, 0}, {1, 0}, {0, 1}}};
   for (NodeIndex v = 0; v < mesh_.num_vertices(); ++v) {

@@ -10,6 +10,7 @@
 #include "vesica/core/error.hpp"
 #include "vesica/fem/quadratic_triangle.hpp"
 #include "vesica/fem/surface_element.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::adapt {
 namespace {
@@ -26,12 +27,11 @@ constexpr double small_error = 1e-12;
 constexpr double parallel = 1e-6;
 
 mesh::Positions nodal_normals(const mesh::Surface& surface) {
-  constexpr std::array<std::array<double, 2>, 6> places = {
-      {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
   mesh::Positions normals = mesh::Positions::Zero(surface.positions.rows(), 3);
   for (const mesh::QuadraticTriangle& nodes : surface.triangulation->triangles()) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const auto shape = fem::shape_values(places[i][0], places[i][1]);
+      const auto shape =
+          fem::shape_values(mesh::node_parameters[i][0], mesh::node_parameters[i][1]);
       const auto frame =
           fem::tangent_frame(fem::to_vec3(fem::combine<3>(surface.positions, nodes, shape.du)),
                              fem::to_vec3(fem::combine<3>(surface.positions, nodes, shape.dv)));

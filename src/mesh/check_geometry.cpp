@@ -10,9 +10,10 @@
 
 #include "disjoint_sets.hpp"
 #include "side_normals.hpp"
-#include "sub_triangles.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 #include "vesica/mesh/quality.hpp"
+#include "volume_below.hpp"
 
 namespace vesica::mesh {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "vesica/mesh/local_nodes.hpp"
+
 namespace vesica::mesh {
 namespace {
 
@@ -79,11 +81,9 @@ Eigen::AlignedBox3d CurvedTriangle::box() const {
 }
 
 Vector2d CurvedTriangle::closest_node(const Vector3d& target) const {
-  constexpr std::array<std::array<double, 2>, 6> nodes = {
-      {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
   Vector2d best(0, 0);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& [u, v] : nodes) {
+  for (const auto& [u, v] : node_parameters) {
     const double squared = (point({u, v}) - target).squaredNorm();
     if (squared < smallest) {
       smallest = squared;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sub_triangles.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::mesh {
 namespace {

@@ -10,7 +10,7 @@
 #include "flat_triangulation.hpp"
 #include "loop_tree.hpp"
 #include "plane_curve.hpp"
-#include "sub_triangles.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::mesh {
 namespace {

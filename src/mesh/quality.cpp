@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sub_triangles.hpp"
+#include "vesica/mesh/local_nodes.hpp"
+#include "volume_below.hpp"
 
 namespace vesica::mesh {
 namespace {

@@ -11,9 +11,9 @@
 #include <span>
 #include <utility>
 
-#include "sub_triangles.hpp"
 #include "vertex_stars.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 #include "vesica/mesh/quality.hpp"
 
 namespace vesica::mesh {
@@ -35,9 +35,6 @@ constexpr double area_share = 0.7;
 
 using LocalTriangle = std::array<std::size_t, 3>;
 constexpr std::array<LocalTriangle, 1> corner_triangle = {{{0, 1, 2}}};
-
-constexpr std::array<std::array<double, 2>, 6> node_parameters = {
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 
 void check_sizes(const Eigen::VectorXd& sizes, NodeIndex num_nodes) {
   if (sizes.size() == 0) return;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "box_tree.hpp"
-#include "sub_triangles.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::mesh {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "sub_triangles.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 #include "vesica/mesh/quality.hpp"
 
 namespace vesica::mesh {

@@ -14,6 +14,7 @@
 #include "connected_components.hpp"
 #include "vesica/fem/quadratic_triangle.hpp"
 #include "vesica/fem/surface_element.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::problem {
 
@@ -26,12 +27,6 @@ struct CrossSections::Crossing {
 };
 
 namespace {
-
-/// The four sub-triangles of an element between its nodes.
-constexpr std::array<std::array<std::size_t, 3>, 4> sub_triangles = {
-    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-constexpr std::array<std::array<double, 2>, 6> node_coordinates = {
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 
 /// Root in [0, 1] of the parabola with values a, m, b at 0, 1/2, 1, where a and b have different
 /// signs.
@@ -108,8 +103,8 @@ CrossSections::Crossing CrossSections::crossing(const mesh::QuadraticTriangle& t
                                                 std::size_t a, std::size_t b, double height) const {
   const auto [low, high] = std::minmax(triangle[a], triangle[b]);
   if (triangle[a] != low) std::swap(a, b);  // the same from both sides of the line
-  const Eigen::Vector2d start(node_coordinates[a].data());
-  const Eigen::Vector2d end(node_coordinates[b].data());
+  const Eigen::Vector2d start(mesh::node_parameters[a].data());
+  const Eigen::Vector2d end(mesh::node_parameters[b].data());
   const auto interpolate = [&](const std::array<double, 6>& weights) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < 6; ++i)
@@ -138,7 +133,7 @@ void CrossSections::for_each_piece(double height, const Add& add) const {
   for (const auto& triangle : state_.triangulation->triangles()) {
     std::array<bool, 6> above{};
     for (std::size_t i = 0; i < 6; ++i) above[i] = heights_[triangle[i]] > height;
-    for (const auto& corners : sub_triangles) {
+    for (const auto& corners : mesh::sub_triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto alone = corners[k];
         const auto next = corners[(k + 1) % 3];

@@ -9,18 +9,16 @@
 #include "connected_components.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
+#include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::problem {
 namespace {
 
 using Parameters = Eigen::Vector2d;
 
-/// Reference coordinates of the local nodes, and the four sub-triangles between them.
-const std::array<Parameters, 6> node_parameters = {Parameters(0, 0),     Parameters(1, 0),
-                                                   Parameters(0, 1),     Parameters(0.5, 0),
-                                                   Parameters(0.5, 0.5), Parameters(0, 0.5)};
-constexpr std::array<std::array<std::size_t, 3>, 4> sub_triangles = {
-    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+Parameters parameters_of(std::size_t local_node) {
+  return Parameters(mesh::node_parameters[local_node].data());
+}
 
 double cross(const Parameters& a, const Parameters& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -173,7 +171,7 @@ NodeDomains node_domains(const State& state) {
   const auto value = [&](mesh::NodeIndex node) { return c[node]; };
   std::vector<std::array<std::size_t, 2>> links;
   for (const auto& nodes : state.triangulation->triangles()) {
-    for (const auto& corners : sub_triangles) {
+    for (const auto& corners : mesh::sub_triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto a = nodes[corners[i]];
         const auto b = nodes[corners[(i + 1) % 3]];
@@ -204,16 +202,15 @@ DomainSum::Polygon clipped(const Element& element, const std::array<std::size_t,
     const std::size_t b = corners[(i + 1) % 3];
     const double level = sign * element.levels()[a];
     const double next = sign * element.levels()[b];
-    if (level >= 0) polygon.push(node_parameters[a], level == 0);
-    if (level * next < 0)
-      polygon.push(crossing(element, node_parameters[a], node_parameters[b]), true);
+    if (level >= 0) polygon.push(parameters_of(a), level == 0);
+    if (level * next < 0) polygon.push(crossing(element, parameters_of(a), parameters_of(b)), true);
   }
   return polygon;
 }
 
 void add_cut_element(const Element& element, const mesh::QuadraticTriangle& nodes,
                      const NodeDomains& of, std::vector<PhaseDomain>& domains) {
-  for (const auto& corners : sub_triangles) {
+  for (const auto& corners : mesh::sub_triangles) {
     for (const double sign : {1.0, -1.0}) {
       const auto inside = std::find_if(corners.begin(), corners.end(), [&](std::size_t corner) {
         return sign * element.levels()[corner] > 0;

@@ -1,6 +1,7 @@
-#include "sub_triangles.hpp"
+#include "volume_below.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "quadratic_shape.hpp"
 
@@ -19,17 +20,6 @@ Eigen::Vector3d combine(const ShapeFunctions& shape, const QuadraticTriangle& no
 }
 
 }  // namespace
-
-std::array<Eigen::Vector3d, 3> sub_triangle(const QuadraticTriangle& nodes,
-                                            const std::array<std::size_t, 3>& local,
-                                            const Positions& positions) {
-  return {positions.row(nodes[local[0]]), positions.row(nodes[local[1]]),
-          positions.row(nodes[local[2]])};
-}
-
-Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners) {
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-}
 
 double volume_below(const QuadraticTriangle& nodes, const Positions& positions) {
   // The integrand has degree 4; collapsing the square onto the triangle (v = (1 - u) t) makes it 5.
