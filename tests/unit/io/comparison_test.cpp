@@ -11,6 +11,7 @@
 
 #include "fake_run.hpp"
 #include "io/json_reader.hpp"
+#include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/comparison_files.hpp"
 #include "vesica/io/run_folder.hpp"
@@ -104,7 +105,7 @@ TEST(Comparison, TheExitStatusIsTheWorstOfTheRuns) {
 }
 
 TEST(Comparison, JsonHoldsTheVerdictsAndTheDifferences) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ComparedRun other = fake_run("minimize");
   other.verdict.outcome.diagnostics.energy.bending = 49.5;
   write_text_file(folder.path() / "comparison.json",
@@ -153,7 +154,7 @@ TEST(Comparison, TheTableHasAColumnForEachRunAndLeavesOutWhatIsAbsent) {
 }
 
 TEST(Comparison, WritesAProfileAndAHistoryForEachRun) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ComparedRun other = fake_run("minimize");
   other.state.values.positions.rowwise() += Eigen::RowVector3d(5, 0, 0);  // moved back for the cut
   const Comparison comparison = compare({fake_run("flow"), other});
@@ -192,7 +193,7 @@ TEST(Comparison, ARunThatCouldNotBeginIsLeftOutOfTheEnergyPlot) {
 }
 
 TEST(Comparison, WithoutGnuplotThereIsASentenceInPlaceOfPictures) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string path = ::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);
   const auto failure = draw_comparison(folder.path());

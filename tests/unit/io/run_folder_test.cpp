@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "fake_run.hpp"
+#include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(RunFolder, CheckingCreatesNothing) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   check_run_folder(folder.path() / "a" / "b", "case.toml", false);
   EXPECT_FALSE(fs::exists(folder.path() / "a"));
   create_run_folder(folder.path() / "a" / "b");
@@ -24,7 +24,7 @@ TEST(RunFolder, CheckingCreatesNothing) {
 
 TEST(RunFolder, AFolderThatHoldsARunIsRefusedUnlessItMayBeOverwritten) {
   for (const char* name : {"trajectory.h5", "trajectory.part.h5", "verdict.json"}) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     std::ofstream(folder.path() / name) << "old";
     EXPECT_THROW(check_run_folder(folder.path(), "case.toml", false), ConfigError) << name;
     EXPECT_NO_THROW(check_run_folder(folder.path(), "case.toml", true)) << name;
@@ -32,20 +32,20 @@ TEST(RunFolder, AFolderThatHoldsARunIsRefusedUnlessItMayBeOverwritten) {
 }
 
 TEST(RunFolder, TheCaseFileItselfIsNeverOverwritten) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "case.toml") << "title = 'mine'";
   EXPECT_THROW(check_run_folder(folder.path(), folder.path() / "case.toml", true), ConfigError);
 }
 
 TEST(RunFolder, AFileInPlaceOfTheFolderIsAnIoError) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "file") << "x";
   EXPECT_THROW(check_run_folder(folder.path() / "file", "case.toml", false), IoError);
   EXPECT_THROW(check_run_folder(folder.path() / "file" / "out", "case.toml", true), IoError);
 }
 
 TEST(RunFolder, ATextFileIsReplacedWholeOrNotAtAll) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path path = folder.path() / "verdict.json";
   write_text_file(path, "first");
   write_text_file(path, "second");

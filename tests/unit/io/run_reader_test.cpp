@@ -12,6 +12,7 @@
 
 #include "fake_run.hpp"
 #include "io/json_reader.hpp"
+#include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/trajectory_writer.hpp"
@@ -57,7 +58,7 @@ std::string io_error_of(const fs::path& folder) {
 }
 
 TEST(RunReader, ReadsTheFinalStateBack) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_fake_run(folder.path(), relax::RunStatus::converged);
   const FinishedRun run = read_run(folder.path());
   problem::State expected = fake_state();
@@ -77,7 +78,7 @@ TEST(RunReader, ReadsTheFinalStateBack) {
 }
 
 TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
   write_text_file(folder.path() / "again.json", to_json(read_run(folder.path()).verdict));
   const JsonReader written(folder.path() / "verdict.json");
@@ -97,7 +98,7 @@ TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {
 }
 
 TEST(RunReader, ReadsTheEnergyOfEveryStep) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_fake_run(folder.path(), relax::RunStatus::step_limit);
   const FinishedRun run = read_run(folder.path());
   EXPECT_EQ(run.history.energy, std::vector<double>(13, 58.75));
@@ -107,13 +108,13 @@ TEST(RunReader, ReadsTheEnergyOfEveryStep) {
 }
 
 TEST(RunReader, KeepsTheExitStatusOfTheRun) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_fake_run(folder.path(), relax::RunStatus::interrupted, SIGTERM);
   EXPECT_EQ(exit_status(read_run(folder.path()).verdict.outcome), 143);
 }
 
 TEST(RunReader, TheEnergyOfAFailedStartIsNoNumber) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   RunConfig config;
   config.phase.emplace();
   config.output.directory = folder.path().string();
@@ -128,7 +129,7 @@ TEST(RunReader, TheEnergyOfAFailedStartIsNoNumber) {
 }
 
 TEST(RunReader, AFolderWithoutAFinishedRunIsAnIoError) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(io_error_of(folder.path() / "none"),
             (folder.path() / "none").string() + ": no such folder");
   EXPECT_NE(io_error_of(folder.path()).find("holds no finished run (trajectory.h5 is missing)"),
@@ -138,7 +139,7 @@ TEST(RunReader, AFolderWithoutAFinishedRunIsAnIoError) {
 }
 
 TEST(RunReader, DamagedFilesAreIoErrorsThatNameThem) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_fake_run(folder.path(), relax::RunStatus::converged);
   std::ofstream(folder.path() / "verdict.json") << "{\"status\": ";
   EXPECT_NE(io_error_of(folder.path()).find("verdict.json: is no JSON"), std::string::npos);

@@ -12,6 +12,7 @@
 
 #include "fake_run.hpp"
 #include "io/hdf5.hpp"
+#include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/trajectory_writer.hpp"
 
@@ -98,7 +99,7 @@ struct FakeRun {
 };
 
 TEST(TrajectoryWriter, WritesFramesSeriesConfigurationAndOutcome) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   run.config.phase.emplace();
   run.config.title = "a test";
@@ -141,7 +142,7 @@ TEST(TrajectoryWriter, WritesFramesSeriesConfigurationAndOutcome) {
 }
 
 TEST(TrajectoryWriter, AFileOfARunThatGoesOnIsReadableUpToTheLastFrame) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   for (long step = 0; step <= 6; ++step) run.observe(writer, step);
@@ -155,7 +156,7 @@ TEST(TrajectoryWriter, AFileOfARunThatGoesOnIsReadableUpToTheLastFrame) {
 }
 
 TEST(TrajectoryWriter, AnOlderRunStaysWholeUntilTheNewOneIsFinished) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "trajectory.h5") << "old";
   std::ofstream(folder.path() / "trajectory.xdmf") << "old";
   FakeRun run;
@@ -173,7 +174,7 @@ TEST(TrajectoryWriter, AnOlderRunStaysWholeUntilTheNewOneIsFinished) {
 }
 
 TEST(TrajectoryWriter, AFinalStateThatMovedAfterTheLastStepGetsItsOwnFrameAndRow) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.observe(writer, 0);
@@ -185,7 +186,7 @@ TEST(TrajectoryWriter, AFinalStateThatMovedAfterTheLastStepGetsItsOwnFrameAndRow
 }
 
 TEST(TrajectoryWriter, ANewConnectivityGetsItsOwnMesh) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.observe(writer, 0);
@@ -197,7 +198,7 @@ TEST(TrajectoryWriter, ANewConnectivityGetsItsOwnMesh) {
 }
 
 TEST(TrajectoryWriter, AChangeOfTheMeshGetsAFrameAndItsReason) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.observe(writer, 0);
@@ -215,7 +216,7 @@ TEST(TrajectoryWriter, AChangeOfTheMeshGetsAFrameAndItsReason) {
 }
 
 TEST(TrajectoryWriter, ParaViewSeesOneFrameAtATime) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.observe(writer, 0);
@@ -228,7 +229,7 @@ TEST(TrajectoryWriter, ParaViewSeesOneFrameAtATime) {
 }
 
 TEST(TrajectoryWriter, EveryFrameHasItsDomainsInOneTable) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.measured.domains = {{1, 3, 6, {1, 2, 3}}, {1, 2, 5, {0, 0, 0}}, {2, 7, 11, {0, 0, -1}}};
@@ -245,7 +246,7 @@ TEST(TrajectoryWriter, EveryFrameHasItsDomainsInOneTable) {
 }
 
 TEST(TrajectoryWriter, EventsAreKept) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   TrajectoryWriter writer(folder.path(), run.config, {});
   run.observe(writer, 0);
@@ -262,7 +263,7 @@ TEST(TrajectoryWriter, EventsAreKept) {
 }
 
 TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FakeRun run;
   run.state.values.order_parameter.resize(0);
   run.state.rates.order_parameter.resize(0);
@@ -290,7 +291,7 @@ TEST(TrajectoryWriter, AFolderThatDoesNotExistIsNamed) {
 }
 
 TEST(TrajectoryWriter, AFullDiskIsAnErrorThatLeavesTheOlderRunAlone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "trajectory.h5") << "old";
   FakeRun run;
   run.config.output.every_steps = 1;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "controller_test.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/problem/diagnostics.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 /// A single-phase unit sphere with elements of diameter 0.33 to 0.4; what else a controller looks
 /// at is made up.
-class BisectionControllerTest : public ::testing::Test {
+class BisectionControllerTest : public ControllerTest {
  protected:
   BisectionControllerTest() {
     model_.is_two_phase = false;
@@ -29,21 +30,11 @@ class BisectionControllerTest : public ::testing::Test {
     options_.max_size = 0.5;
   }
 
-  StepView view_at(long step) {
-    report_.counts.steps = step;
-    return {state_, report_, diagnostics_};
-  }
-
   static const MeshPlan& plan_of(const std::vector<Request>& requests) {
     return std::get<Remesh>(requests.at(0)).plan;
   }
 
   AdaptionOptions options_;
-  model::Model model_;
-  problem::Scales scales_;
-  problem::State state_;
-  solve::StepReport report_;
-  problem::Diagnostics diagnostics_;
 };
 
 TEST_F(BisectionControllerTest, AsksEverySoManySteps) {

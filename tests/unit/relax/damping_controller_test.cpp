@@ -5,20 +5,20 @@
 #include <optional>
 #include <string>
 
+#include "controller_test.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::relax {
 namespace {
 
 /// What a controller makes of velocity norms and the present damping.
-class DampingTest : public ::testing::Test {
+class DampingTest : public ControllerTest {
  protected:
   std::optional<double> answer(DampingController& controller, double alpha, double normal,
                                double tangential, long step = 5) {
     state_.damping = alpha;
-    report_.counts.steps = step;
     diagnostics_.velocity = {normal, normal, tangential};
-    const auto requests = controller.respond({state_, report_, diagnostics_});
+    const auto requests = controller.respond(view_at(step));
     if (requests.empty()) return std::nullopt;
     return std::get<SetDamping>(requests.at(0)).alpha;
   }
@@ -28,10 +28,6 @@ class DampingTest : public ::testing::Test {
     options.kind = kind;
     return options;
   }
-
-  problem::State state_;
-  solve::StepReport report_;
-  problem::Diagnostics diagnostics_;
 };
 
 TEST_F(DampingTest, OfKindSpeedIsInverseToTheNormalVelocity) {

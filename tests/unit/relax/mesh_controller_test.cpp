@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "controller_test.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/relax/remesh.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// A single-phase unit sphere whose longest edge is a chosen multiple of its wanted size; all else
 /// that a controller looks at is made up.
-class MeshControllerTest : public ::testing::Test {
+class MeshControllerTest : public ControllerTest {
  protected:
   MeshControllerTest() {
     model_.is_two_phase = false;
@@ -36,11 +37,6 @@ class MeshControllerTest : public ::testing::Test {
                                         wanted_sizes(model_, state_, unit, 1e9));
   }
 
-  StepView view_at(long step) {
-    report_.counts.steps = step;
-    return {state_, report_, diagnostics_};
-  }
-
   /// First step at which a controller asks for a mesh, of those up to 20.
   std::optional<long> first_request() {
     MeshController controller(options_, model_, scales_);
@@ -51,11 +47,6 @@ class MeshControllerTest : public ::testing::Test {
   }
 
   AdaptionOptions options_;
-  model::Model model_;
-  problem::Scales scales_;
-  problem::State state_;
-  solve::StepReport report_;
-  problem::Diagnostics diagnostics_;
 };
 
 TEST_F(MeshControllerTest, LeavesAMeshThatFitsAlone) { EXPECT_EQ(first_request(), std::nullopt); }

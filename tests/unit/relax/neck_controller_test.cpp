@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "controller_test.hpp"
 #include "vesica/mesh/shapes.hpp"
 
 namespace vesica::relax {
@@ -12,11 +13,11 @@ namespace {
 
 /// A peanut of R_c about 1 whose waist shrinks from step to step, interface width 0.4; phase 1 on
 /// its high side.
-class NeckControllerTest : public ::testing::Test {
+class NeckControllerTest : public ControllerTest {
  protected:
   NeckControllerTest() {
     model_.material.interface_width = 0.4;
-    measured_.velocity.normal_rigid_free = 1;
+    diagnostics_.velocity.normal_rigid_free = 1;
   }
 
   void set_waist(double radius) {
@@ -30,8 +31,6 @@ class NeckControllerTest : public ::testing::Test {
     state_.values.order_parameter = (surface.positions.col(0).array() - interface_).sign();
     if (!model_.is_two_phase) state_.values.order_parameter.resize(0);
   }
-
-  [[nodiscard]] StepView view() const { return {state_, report_, measured_}; }
 
   /// What the controller answers to necks of these radii in turn; the last answer.
   std::vector<Request> answer(NeckController& controller, const std::vector<double>& radii) {
@@ -54,11 +53,7 @@ class NeckControllerTest : public ::testing::Test {
     return stop->reason;
   }
 
-  model::Model model_;
   double interface_ = 2;  // where c changes its sign
-  problem::State state_;
-  solve::StepReport report_;
-  problem::Diagnostics measured_;
 };
 
 TEST_F(NeckControllerTest, EndsARunWhoseNeckIsBelow15HundredthsOfTheInterfaceWidth) {
@@ -70,9 +65,9 @@ TEST_F(NeckControllerTest, EndsARunWhoseNeckIsBelow15HundredthsOfTheInterfaceWid
 }
 
 TEST_F(NeckControllerTest, LeavesAVesicleAtRestAlone) {
-  measured_.velocity.normal_rigid_free = 0.029;
+  diagnostics_.velocity.normal_rigid_free = 0.029;
   EXPECT_TRUE(answer({0.055, 0.05}).empty());
-  measured_.velocity.normal_rigid_free = 0.031;
+  diagnostics_.velocity.normal_rigid_free = 0.031;
   EXPECT_FALSE(answer({0.055, 0.05}).empty());
 }
 

@@ -4,11 +4,13 @@
 
 #include <numbers>
 
+#include "controller_test.hpp"
+
 namespace vesica::relax {
 namespace {
 
 /// Views with chosen velocity, multiplier and constraint errors on a surface with R_c = 2.
-class StationarityTest : public ::testing::Test {
+class StationarityTest : public ControllerTest {
  protected:
   StationarityTest() {
     diagnostics_.area = 16 * std::numbers::pi;
@@ -21,14 +23,10 @@ class StationarityTest : public ::testing::Test {
     diagnostics_.velocity.normal_rigid_free = velocity;
     diagnostics_.velocity.normal = 1;  // the plain one does not count
     state_.values.multipliers = {multiplier, 0.0, std::nullopt};
-    return {state_, report_, diagnostics_};
+    return ControllerTest::view();
   }
 
   StopOptions options_;
-  model::Model model_;
-  problem::State state_;
-  solve::StepReport report_;
-  problem::Diagnostics diagnostics_;
 };
 
 TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdTimesTheRadius) {
