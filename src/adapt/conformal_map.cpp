@@ -99,7 +99,7 @@ void check_genus_zero(const mesh::Triangulation& triangulation) {
     throw ConfigError(
         fmt::format("conformal map: the surface has {} components: must be one", components));
   }
-  const int genus = 1 - triangulation.euler_characteristic() / 2;
+  const int genus = triangulation.genus();
   if (genus != 0)
     throw ConfigError(fmt::format("conformal map: the surface has genus {}: must be 0", genus));
 }

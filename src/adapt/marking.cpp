@@ -1,31 +1,14 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <string_view>
 
 #include "bisected_edges.hpp"
-#include "vesica/core/error.hpp"
+#include "nodal_fields.hpp"
 
 namespace vesica::adapt {
 namespace {
 
-/// As for the size field.
-constexpr double interface_threshold = 0.95;
 /// Growth of the wanted diameters until the mesh is small enough.
 constexpr double growth = 1.05;
 constexpr int nodes_per_bisected_edge = 4;  // a vertex, and three edges
-
-void check_rows(Eigen::Index rows, mesh::NodeIndex num_nodes, std::string_view name) {
-  if (rows == num_nodes) return;
-  throw ConfigError(fmt::format("marking: {} has {} rows: must have one for each of the {} nodes",
-                                name, rows, num_nodes));
-}
-
-/// sqrt(s_kappa) = |Q| from the components xx, yy, zz, xy, yz, xz.
-double curvature(const fem::NodalShapeOperator& q, Eigen::Index node) {
-  return std::sqrt(q.row(node).head<3>().squaredNorm() + 2 * q.row(node).tail<3>().squaredNorm());
-}
 
 std::vector<Mark> marks_for(const Eigen::VectorXd& diameters, const Eigen::VectorXd& wanted) {
   std::vector<Mark> marks(static_cast<std::size_t>(diameters.size()), Mark::keep);
@@ -52,23 +35,20 @@ Eigen::VectorXd diameters(const mesh::Surface& surface) {
 Eigen::VectorXd wanted_diameters(const mesh::Surface& surface,
                                  const fem::NodalShapeOperator& shape_operator,
                                  const PhaseInterface& phases, const BisectionOptions& options) {
-  const mesh::NodeIndex num_nodes = surface.triangulation->num_nodes();
-  const Eigen::VectorXd& c = phases.order_parameter;
-  check_rows(surface.positions.rows(), num_nodes, "positions");
-  check_rows(shape_operator.rows(), num_nodes, "shape_operator");
-  if (c.size() > 0) check_rows(c.size(), num_nodes, "order_parameter");
+  const bool has_phases = phases.order_parameter.size() > 0;
+  check_nodal_fields("marking", surface, shape_operator, phases);
   Eigen::VectorXd wanted(surface.triangulation->num_triangles());
   Eigen::Index t = 0;
   for (const mesh::QuadraticTriangle& nodes : surface.triangulation->triangles()) {
     double mean_curvature = 0;
     bool is_in_interface = false;
     for (const mesh::NodeIndex node : nodes) {
-      mean_curvature += curvature(shape_operator, node) / 6;
-      is_in_interface |= c.size() > 0 && std::abs(c[node]) < interface_threshold;
+      mean_curvature += fem::norm(shape_operator, node) / 6;
+      is_in_interface |= phases.contains(node);
     }
     // Without curvature infinite, which max_size replaces.
     double diameter = std::min(options.max_size, options.n_kappa / mean_curvature);
-    if (c.size() > 0)
+    if (has_phases)
       diameter =
           std::min(diameter, phases.width / (is_in_interface ? options.n_in : options.n_off));
     wanted[t++] = diameter;

@@ -1,47 +1,21 @@
 #include "vesica/adapt/size_field.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "vesica/core/error.hpp"
-#include "vesica/fem/node_graph.hpp"
+#include "nodal_fields.hpp"
 #include "vesica/mesh/quality.hpp"
 
 namespace vesica::adapt {
 namespace {
 
-/// |c| is tanh(1.83) at the rim of what counts as interface.
-constexpr double interface_threshold = 0.95;
-
-template <class Field>
-void check_field(const Eigen::MatrixBase<Field>& field, mesh::NodeIndex num_nodes,
-                 std::string_view name) {
-  if (field.rows() != num_nodes) {
-    throw ConfigError(
-        fmt::format("size field: {} has {} rows: must have one for each of the {} "
-                    "nodes",
-                    name, field.rows(), num_nodes));
-  }
-  if (!field.allFinite()) {
-    throw ConfigError(fmt::format("size field: {}: must be finite", name));
-  }
-}
-
-/// |Q|^2 from the components xx, yy, zz, xy, yz, xz.
-double squared_norm(const fem::NodalShapeOperator& q, Eigen::Index node) {
-  return q.row(node).head<3>().squaredNorm() + 2 * q.row(node).tail<3>().squaredNorm();
-}
-
 /// Dijkstra's algorithm from all nodes at once, smallest sizes first.
-void limit_growth(const mesh::Surface& surface, double growth, Eigen::VectorXd& sizes) {
+void limit_growth(const mesh::Surface& surface, const fem::NodeGraph& graph, double growth,
+                  Eigen::VectorXd& sizes) {
   using Entry = std::pair<double, mesh::NodeIndex>;
-  const fem::NodeGraph graph(*surface.triangulation);
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (mesh::NodeIndex node = 0; node < graph.num_nodes(); ++node) queue.emplace(sizes[node], node);
   while (!queue.empty()) {
@@ -60,24 +34,20 @@ void limit_growth(const mesh::Surface& surface, double growth, Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::VectorXd size_field(const mesh::Surface& surface,
+Eigen::VectorXd size_field(const mesh::Surface& surface, const fem::NodeGraph& graph,
                            const fem::NodalShapeOperator& shape_operator,
                            const PhaseInterface& phases, const SizeFieldOptions& options) {
   const mesh::NodeIndex num_nodes = surface.triangulation->num_nodes();
-  const bool has_phases = phases.order_parameter.size() > 0;
-  check_field(surface.positions, num_nodes, "positions");
-  check_field(shape_operator, num_nodes, "shape_operator");
-  if (has_phases) check_field(phases.order_parameter, num_nodes, "order_parameter");
+  check_nodal_fields("size field", surface, shape_operator, phases);
   Eigen::VectorXd sizes(num_nodes);
   for (Eigen::Index node = 0; node < num_nodes; ++node) {
     // A flat place gives infinity, which max_size replaces.
-    sizes[node] = std::min(options.max_size,
-                           options.curvature_angle / std::sqrt(squared_norm(shape_operator, node)));
-    if (has_phases && std::abs(phases.order_parameter[node]) < interface_threshold) {
+    sizes[node] =
+        std::min(options.max_size, options.curvature_angle / fem::norm(shape_operator, node));
+    if (phases.contains(node))
       sizes[node] = std::min(sizes[node], options.interface_size * phases.width);
-    }
   }
-  limit_growth(surface, options.growth, sizes);
+  limit_growth(surface, graph, options.growth, sizes);
   return sizes;
 }
 

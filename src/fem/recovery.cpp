@@ -1,5 +1,6 @@
 #include "vesica/fem/recovery.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "vesica/core/parallel.hpp"
@@ -120,6 +121,11 @@ NodalShapeOperator recover_shape_operator(const mesh::Triangulation& triangulati
     }
   });
   return result;
+}
+
+double norm(const NodalShapeOperator& shape_operator, Eigen::Index node) {
+  const auto q = shape_operator.row(node);
+  return std::sqrt(q.head<3>().squaredNorm() + 2 * q.tail<3>().squaredNorm());
 }
 
 }  // namespace vesica::fem

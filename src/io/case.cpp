@@ -148,7 +148,7 @@ void check_topology(const RunConfig& config, const mesh::Triangulation& triangul
         fmt::format("shape.path = \"{}\": the surface has {} pieces: must be one vesicle",
                     config.shape.path, pieces));
   }
-  const int genus = 1 - triangulation.euler_characteristic() / 2;
+  const int genus = triangulation.genus();
   if (config.adaption.enabled && config.adaption.method == relax::MeshMethod::conformal &&
       genus != 0) {
     throw ConfigError(fmt::format(
@@ -166,8 +166,7 @@ Case case_of(const RunConfig& config, problem::State start) {
   Case vesicle;
   vesicle.model = model_of(config, measures);
   vesicle.start = std::move(start);
-  vesicle.warnings =
-      warnings_of(vesicle.model, {vesicle.start.triangulation, vesicle.start.values.positions});
+  vesicle.warnings = warnings_of(vesicle.model, vesicle.start.surface());
   untie_sphere(vesicle, measures);
   return vesicle;
 }

@@ -1,6 +1,7 @@
 #include "vesica/io/trajectory_writer.hpp"
 
 #include <fmt/format.h>
+
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -94,34 +95,28 @@ TrajectoryWriter::TrajectoryWriter(fs::path folder, const RunConfig& config,
 
 TrajectoryWriter::~TrajectoryWriter() = default;
 
-void TrajectoryWriter::observe(const relax::StepView& view) {
+/// After an error nothing more is written.
+template <class Write>
+void TrajectoryWriter::write(const Write& write) {
   if (!writer_) return;
   try {
-    writer_->observe(view);
+    write(*writer_);
   } catch (...) {
     writer_.reset();
     throw;
   }
+}
+
+void TrajectoryWriter::observe(const relax::StepView& view) {
+  write([&](Writer& writer) { writer.observe(view); });
 }
 
 void TrajectoryWriter::mesh_changed(const relax::StepView& view, const relax::MeshChange& change) {
-  if (!writer_) return;
-  try {
-    writer_->mesh_changed(view, change);
-  } catch (...) {
-    writer_.reset();
-    throw;
-  }
+  write([&](Writer& writer) { writer.mesh_changed(view, change); });
 }
 
 void TrajectoryWriter::happened(const relax::StepView&, const relax::Event& event) {
-  if (!writer_) return;
-  try {
-    writer_->happened(event);
-  } catch (...) {
-    writer_.reset();
-    throw;
-  }
+  write([&](Writer& writer) { writer.happened(event); });
 }
 
 void TrajectoryWriter::finish(const relax::StepView& view, const relax::Outcome& outcome) {

@@ -61,10 +61,9 @@ DampingController::DampingController(const DampingOptions& options, const proble
 
 std::vector<Request> DampingController::respond(const StepView& view) {
   if (view.report.counts.steps == 0) return {SetDamping{*options_.initial * scales_.damping()}};
-  const double speed_unit = scales_.length * scales_.length / scales_.time();
   problem::VelocityNorms velocity = view.diagnostics.velocity;
-  velocity.normal /= speed_unit;
-  velocity.tangential /= speed_unit;
+  velocity.normal /= scales_.velocity_norm();
+  velocity.tangential /= scales_.velocity_norm();
   const double alpha = view.state.damping / scales_.damping();
   double next = next_alpha(options_, alpha, velocity);
   if (options_.kind != DampingKind::fixed)

@@ -80,23 +80,18 @@ std::vector<Request> MeshController::ask(const StepView& view, std::string reaso
   return {Remesh{size_options(), static_cast<double>(options_.max_nodes), std::move(reason)}};
 }
 
-double MeshController::longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const {
-  return adapt::longest_relative_edge({view.state.triangulation, view.state.values.positions},
-                                      sizes);
-}
-
 /// Why the mesh does not fit the surface.
 std::optional<std::string> MeshController::misfit(const StepView& view) const {
   const Eigen::VectorXd sizes =
       wanted_sizes(model_, view.state, size_options(), options_.max_nodes);
-  const double edge = longest_edge(view, sizes);
+  const mesh::Surface surface = view.state.surface();
+  const double edge = adapt::longest_relative_edge(surface, sizes);
   if (edge > emergency_edge) return fmt::format("an edge is {:.2f} of its size", edge);
   if (view.report.counts.steps - last_change_ < options_.min_steps) return std::nullopt;
   const double quality = view.diagnostics.quality;
   if (quality < low_quality && quality < lost_quality * *new_quality_)
     return fmt::format("the quality fell to {:.2f}", quality);
   if (!is_final_ && edge > long_edge) return fmt::format("an edge is {:.2f} of its size", edge);
-  const mesh::Surface surface{view.state.triangulation, view.state.values.positions};
   const double wanted = adapt::wanted_nodes(surface, sizes);
   if (wanted < surplus_nodes * surface.triangulation->num_nodes())
     return fmt::format("{:.0f} nodes are wanted", wanted);
@@ -105,8 +100,7 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
 
 /// Of the surface along its normal, without rigid motion, in natural units.
 double MeshController::speed(const StepView& view) const {
-  const double unit = scales_.length * scales_.length / scales_.time();
-  return view.diagnostics.velocity.normal_rigid_free / unit;
+  return view.diagnostics.velocity.normal_rigid_free / scales_.velocity_norm();
 }
 
 }  // namespace vesica::relax

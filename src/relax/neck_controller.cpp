@@ -57,8 +57,8 @@ std::vector<Request> NeckController::stop_if_closing(const StepView& view) const
 }
 
 void NeckController::look(const StepView& view) {
-  neck_ = mesh::find_neck({view.state.triangulation, view.state.values.positions},
-                          2 * std::numbers::pi * looked_for_radius * width(view));
+  neck_ =
+      mesh::find_neck(view.state.surface(), 2 * std::numbers::pi * looked_for_radius * width(view));
   if (!neck_) {
     radii_.clear();
     return;
@@ -69,9 +69,8 @@ void NeckController::look(const StepView& view) {
 
 bool NeckController::closes(const StepView& view, double radius) const {
   if (!neck_ || neck_->radius() >= radius) return false;
-  const double unit = scales_.length * scales_.length / scales_.time();
   return radii_.back() < radii_.front() &&
-         view.diagnostics.velocity.normal_rigid_free > slow * unit;
+         view.diagnostics.velocity.normal_rigid_free > slow * scales_.velocity_norm();
 }
 
 Stop NeckController::stop(const StepView& view) const {

@@ -59,8 +59,8 @@ Eigen::VectorXd integrals_of(const problem::State& state) {
 void restore(problem::State& state, const Eigen::VectorXd& targets) {
   const Eigen::VectorXd phase_derivative = state.values.order_parameter.unaryExpr(
       [](double c) { return model::phase_indicator_derivative(c); });
-  const auto directions = adapt::restoring_directions(
-      {state.triangulation, state.values.positions}, state.values.mean_curvature, phase_derivative);
+  const auto directions =
+      adapt::restoring_directions(state.surface(), state.values.mean_curvature, phase_derivative);
   problem::State trial = state;
   const auto integrals = [&trial](const adapt::RestorableFields& fields) {
     trial.values.positions = fields.positions;
@@ -74,17 +74,17 @@ void restore(problem::State& state, const Eigen::VectorXd& targets) {
 }
 
 /// What the size of elements depends on.
-fem::NodalShapeOperator shape_operator_of(const problem::State& state) {
-  const fem::NodeGraph graph(*state.triangulation);
+fem::NodalShapeOperator shape_operator_of(const problem::State& state,
+                                          const fem::NodeGraph& graph) {
   return fem::recover_shape_operator(*state.triangulation, graph, state.values.positions, 0);
+}
+
+fem::NodalShapeOperator shape_operator_of(const problem::State& state) {
+  return shape_operator_of(state, fem::NodeGraph(*state.triangulation));
 }
 
 adapt::PhaseInterface phases_of(const model::Model& model, const problem::State& state) {
   return {state.values.order_parameter, model.material.interface_width.value(state.time)};
-}
-
-mesh::Surface surface_of(const problem::State& state) {
-  return {state.triangulation, state.values.positions};
 }
 
 /// Makes the new mesh of a plan; absent when there is none that differs.
@@ -94,7 +94,7 @@ struct Mesher {
   double max_nodes;
 
   std::optional<adapt::Remeshed> operator()(const adapt::SizeFieldOptions& sizes) const {
-    const mesh::Surface old = surface_of(state);
+    const mesh::Surface old = state.surface();
     Eigen::VectorXd edges = wanted_sizes(model, state, sizes, max_nodes);
     adapt::Remeshed changed = adapt::local_remesh(old, edges);
     for (int attempt = 1; attempt < max_attempts; ++attempt) {
@@ -107,12 +107,12 @@ struct Mesher {
   }
   std::optional<adapt::Remeshed> operator()(const BisectionPlan& plan) const {
     adapt::Bisected bisected =
-        adapt::bisect(surface_of(state), wanted_marks(model, state, plan.marking, max_nodes));
+        adapt::bisect(state.surface(), wanted_marks(model, state, plan.marking, max_nodes));
     if (!bisected.is_changed()) return std::nullopt;
     return std::move(bisected.mesh);
   }
   std::optional<adapt::Remeshed> operator()(const ConformalPlan& plan) const {
-    return adapt::conformal_remesh(surface_of(state), shape_operator_of(state),
+    return adapt::conformal_remesh(state.surface(), shape_operator_of(state),
                                    phases_of(model, state), plan.marking, max_nodes);
   }
 };
@@ -122,7 +122,7 @@ problem::State prepared(const problem::State& state, const MeshPlan& plan) {
   problem::State result = state;
   const auto* bisection = std::get_if<BisectionPlan>(&plan);
   if (bisection != nullptr && bisection->is_first)
-    result.triangulation = adapt::with_longest_sides_first(surface_of(state)).triangulation;
+    result.triangulation = adapt::with_longest_sides_first(state.surface()).triangulation;
   return result;
 }
 
@@ -151,13 +151,14 @@ Eigen::VectorXd finest(const Sizes& sizes_with, const Limit& is_within, double f
 
 Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
                              const adapt::SizeFieldOptions& options, double max_nodes) {
-  const mesh::Surface surface = surface_of(state);
-  const auto shape_operator = shape_operator_of(state);
+  const mesh::Surface surface = state.surface();
+  const fem::NodeGraph graph(*state.triangulation);
+  const auto shape_operator = shape_operator_of(state, graph);
   const adapt::PhaseInterface phases = phases_of(model, state);
   const auto sizes_with = [&](double angle) {
     auto changed = options;
     changed.curvature_angle = angle;
-    return adapt::size_field(surface, shape_operator, phases, changed);
+    return adapt::size_field(surface, graph, shape_operator, phases, changed);
   };
   const auto is_within = [&](const Eigen::VectorXd& sizes) {
     return adapt::wanted_nodes(surface, sizes) <= max_nodes;
@@ -168,7 +169,7 @@ Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& st
 
 std::vector<adapt::Mark> wanted_marks(const model::Model& model, const problem::State& state,
                                       const adapt::BisectionOptions& marking, double max_nodes) {
-  const mesh::Surface surface = surface_of(state);
+  const mesh::Surface surface = state.surface();
   return adapt::marks(
       surface,
       adapt::wanted_diameters(surface, shape_operator_of(state), phases_of(model, state), marking),
@@ -181,7 +182,7 @@ std::optional<problem::State> remeshed(const model::Model& model, const problem:
   const auto changed = std::visit(Mesher{model, old, remesh.max_nodes}, remesh.plan);
   if (!changed || !is_usable(changed->surface)) return std::nullopt;
   if (std::holds_alternative<ConformalPlan>(remesh.plan) &&
-      quality_of(changed->surface) <= quality_of(surface_of(old))) {
+      quality_of(changed->surface) <= quality_of(old.surface())) {
     return std::nullopt;
   }
   problem::State result;

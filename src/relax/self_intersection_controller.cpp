@@ -22,8 +22,7 @@ std::vector<Request> SelfIntersectionController::respond_to_limit(const StepView
 }
 
 std::vector<Request> SelfIntersectionController::look(const StepView& view) {
-  const auto first =
-      mesh::self_intersections({view.state.triangulation, view.state.values.positions}, 1);
+  const auto first = mesh::self_intersections(view.state.surface(), 1);
   if (first.empty()) {
     last_free_step_ = view.report.counts.steps;
     return {};

@@ -32,7 +32,7 @@ struct BisectionOptions {
 ///     max_size
 ///
 /// the first two for a two-phase vesicle only. Throws ConfigError when an array has not one row for
-/// each node.
+/// each node or is not finite.
 [[nodiscard]] Eigen::VectorXd wanted_diameters(const mesh::Surface& surface,
                                                const fem::NodalShapeOperator& shape_operator,
                                                const PhaseInterface& phases,

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "vesica/core/fields.hpp"
+#include "vesica/fem/node_graph.hpp"
 #include "vesica/fem/recovery.hpp"
 #include "vesica/mesh/triangulation.hpp"
 
@@ -37,15 +39,20 @@ struct SizeFieldOptions {
 struct PhaseInterface {
   Eigen::VectorXd order_parameter;  ///< c, shape (N)
   double width = 0;                 ///< epsilon [length]
+
+  /// |c| < 0.95, which is tanh(1.83).
+  [[nodiscard]] bool contains(Eigen::Index node) const {
+    return order_parameter.size() > 0 && std::abs(order_parameter[node]) < 0.95;
+  }
 };
 
 /// Wanted length of edges at each node [length], shape (N):
 ///
-///     L = min(max_size, curvature_angle / |Q|, interface_size * width where |c| < 0.95),
+///     L = min(max_size, curvature_angle / |Q|, interface_size * width in the interface),
 ///
-/// then lowered to L_i <= L_j + growth * distance, along the edges and diagonals of elements.
+/// then lowered to L_i <= L_j + growth * distance, along the edges of `graph`, that of the surface.
 /// Throws ConfigError when an array has not one row for each node or is not finite.
-[[nodiscard]] Eigen::VectorXd size_field(const mesh::Surface& surface,
+[[nodiscard]] Eigen::VectorXd size_field(const mesh::Surface& surface, const fem::NodeGraph& graph,
                                          const fem::NodalShapeOperator& shape_operator,
                                          const PhaseInterface& phases,
                                          const SizeFieldOptions& options);

@@ -22,4 +22,7 @@ using NodalShapeOperator = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMa
                                                         const mesh::Positions& positions,
                                                         int threads);
 
+/// |Q| = sqrt(Q : Q) at one node, sqrt(2)/R on a sphere [1/length].
+[[nodiscard]] double norm(const NodalShapeOperator& shape_operator, Eigen::Index node);
+
 }  // namespace vesica::fem

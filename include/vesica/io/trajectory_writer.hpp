@@ -34,6 +34,10 @@ class TrajectoryWriter final : public relax::Observer {
 
  private:
   class Writer;
+
+  template <class Write>
+  void write(const Write& write);
+
   std::unique_ptr<Writer> writer_;
 };
 

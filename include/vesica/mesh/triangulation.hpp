@@ -46,10 +46,12 @@ class Triangulation {
   [[nodiscard]] NodeIndex num_edges() const { return num_nodes_ - num_vertices_; }
   /// Number of connected components.
   [[nodiscard]] int num_components() const { return num_components_; }
-  /// V - E + F = 2 (components - total genus).
+  /// V - E + F = 2 (components - genus).
   [[nodiscard]] int euler_characteristic() const {
     return num_vertices_ - num_edges() + num_triangles();
   }
+  /// Number of handles, of all components together.
+  [[nodiscard]] int genus() const { return num_components_ - euler_characteristic() / 2; }
 
  private:
   std::vector<QuadraticTriangle> triangles_;

@@ -14,6 +14,8 @@ struct Scales {
 
   [[nodiscard]] double damping() const { return length * length / energy; }
   [[nodiscard]] double time() const { return length * length * length * length / energy; }
+  /// Of the L2 norm of a velocity on the surface [length^2/time].
+  [[nodiscard]] double velocity_norm() const { return length * length / time(); }
   [[nodiscard]] double multiplier() const { return energy / (length * length * length); }
 };
 

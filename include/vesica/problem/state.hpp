@@ -44,6 +44,7 @@ struct State {
   Fields rates;        ///< d/dt of `values` along the moving nodes; zero before the first step
   double damping = 0;  ///< tangential damping alpha of equation (b) [length^2/energy]
 
+  [[nodiscard]] mesh::Surface surface() const { return {triangulation, values.positions}; }
   [[nodiscard]] bool is_two_phase() const { return values.order_parameter.size() > 0; }
 };
 

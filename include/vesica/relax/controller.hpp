@@ -59,7 +59,8 @@ class Controller {
   [[nodiscard]] virtual std::vector<Request> respond(const StepView& view) = 0;
 
   /// When a step has failed; `view` is the last good state. With a Remesh the run goes on from
-  /// there, else a Stop tells why it ends; the reason of the failure is added to its reason.
+  /// there, unless a limit is reached or a Stop has status interrupted; else a Stop tells why it
+  /// ends, and the reason of the failure is added to its reason.
   [[nodiscard]] virtual std::vector<Request> respond_to_failure(const StepView& view) {
     (void)view;
     return {};

@@ -130,7 +130,6 @@ class MeshController final : public Controller {
  private:
   [[nodiscard]] adapt::SizeFieldOptions size_options() const;
   [[nodiscard]] std::vector<Request> ask(const StepView& view, std::string reason);
-  [[nodiscard]] double longest_edge(const StepView& view, const Eigen::VectorXd& sizes) const;
   [[nodiscard]] std::optional<std::string> misfit(const StepView& view) const;
   [[nodiscard]] double speed(const StepView& view) const;
 

@@ -23,9 +23,13 @@ mesh::Surface sphere(int resolution, double radius = 1) {
   return mesh::make_shape(options);
 }
 
+fem::NodeGraph graph_of(const mesh::Surface& surface) {
+  return fem::NodeGraph(*surface.triangulation);
+}
+
 Eigen::VectorXd sizes_of(const mesh::Surface& surface, const PhaseInterface& phases,
                          const SizeFieldOptions& options) {
-  return size_field(surface, test::recovered(surface), phases, options);
+  return size_field(surface, graph_of(surface), test::recovered(surface), phases, options);
 }
 
 TEST(SizeField, IsTheCurvatureAngleOverTheNormOfTheShapeOperator) {
@@ -38,7 +42,7 @@ TEST(SizeField, IsTheCurvatureAngleOverTheNormOfTheShapeOperator) {
 TEST(SizeField, IsAtMostTheLargestSizeAlsoWhereTheSurfaceIsFlat) {
   const mesh::Surface surface = sphere(2);
   const fem::NodalShapeOperator flat = fem::NodalShapeOperator::Zero(surface.positions.rows(), 6);
-  const Eigen::VectorXd sizes = size_field(surface, flat, {}, {});
+  const Eigen::VectorXd sizes = size_field(surface, graph_of(surface), flat, {}, {});
   EXPECT_EQ(sizes.minCoeff(), 0.3);
   EXPECT_EQ(sizes.maxCoeff(), 0.3);
 }
@@ -74,7 +78,7 @@ TEST(SizeField, GrowsNoFasterThanAsked) {
   q(0, 0) = 10;  // one sharp place
   SizeFieldOptions options;
   options.max_size = 2;
-  const Eigen::VectorXd sizes = size_field(surface, q, {}, options);
+  const Eigen::VectorXd sizes = size_field(surface, graph_of(surface), q, {}, options);
   EXPECT_NEAR(sizes[0], 0.04, 1e-15);
   for (const auto& nodes : surface.triangulation->triangles()) {
     for (const auto a : nodes) {
@@ -115,7 +119,7 @@ TEST(SizeField, RefusesArraysOfTheWrongLength) {
   const mesh::Surface surface = sphere(1);
   const fem::NodalShapeOperator q = fem::NodalShapeOperator::Zero(42, 6);
   try {
-    (void)size_field(surface, q, {Eigen::VectorXd::Zero(41), 0.1}, {});
+    (void)size_field(surface, graph_of(surface), q, {Eigen::VectorXd::Zero(41), 0.1}, {});
     ADD_FAILURE() << "nothing thrown";
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
