@@ -1,5 +1,6 @@
 #include "vesica/relax/remesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -19,8 +20,9 @@ namespace {
 
 constexpr double smallest_quality = 0.1;        // of a new mesh, 0.5 as a rule
 constexpr double smallest_normal_cosine = 0.0;  // of a new mesh: neighbours form no fold
-constexpr double coarsest_angle = 0.5;          // edge times curvature, where nodes are short
-constexpr int angle_halvings = 6;
+constexpr double coarsest_angle = 0.5;          // where nodes are short; edge times curvature
+constexpr double coarsest_interface = 0.5;      // and edge over interface width
+constexpr int halvings = 6;
 constexpr int max_attempts = 4;    // to stay within max_nodes
 constexpr double surplus = 1.005;  // of the edges, in another attempt
 
@@ -126,22 +128,33 @@ problem::State prepared(const problem::State& state, const MeshPlan& plan) {
   return result;
 }
 
-/// The sizes of the smallest angle, from `fine` to coarsest_angle, that are within the limit; those
-/// of the largest when none is.
+/// Curvature angle and interface size times `growth`, but not beyond the coarsest.
+adapt::SizeFieldOptions grown(const adapt::SizeFieldOptions& options, double growth) {
+  const auto up_to = [growth](double value, double coarsest) {
+    return std::max(value, std::min(growth * value, coarsest));
+  };
+  adapt::SizeFieldOptions result = options;
+  result.curvature_angle = up_to(options.curvature_angle, coarsest_angle);
+  result.interface_size = up_to(options.interface_size, coarsest_interface);
+  return result;
+}
+
+/// The sizes with the least growth that are within the limit; those of the largest when none are.
 template <class Sizes, class Limit>
-Eigen::VectorXd finest(const Sizes& sizes_with, const Limit& is_within, double fine) {
-  Eigen::VectorXd sizes = sizes_with(fine);
-  if (is_within(sizes) || fine >= coarsest_angle) return sizes;
-  double coarse = coarsest_angle;
-  sizes = sizes_with(coarse);
-  for (int halving = 0; halving < angle_halvings && is_within(sizes); ++halving) {
-    const double middle = (fine + coarse) / 2;
-    Eigen::VectorXd finer = sizes_with(middle);
+Eigen::VectorXd finest(const Sizes& sizes_of, const Limit& is_within, double largest_growth) {
+  Eigen::VectorXd sizes = sizes_of(1);
+  if (is_within(sizes) || largest_growth <= 1) return sizes;
+  double low = 1;
+  double high = largest_growth;
+  sizes = sizes_of(high);
+  for (int halving = 0; halving < halvings && is_within(sizes); ++halving) {
+    const double middle = (low + high) / 2;
+    Eigen::VectorXd finer = sizes_of(middle);
     if (is_within(finer)) {
       sizes = std::move(finer);
-      coarse = middle;
+      high = middle;
     } else {
-      fine = middle;
+      low = middle;
     }
   }
   return sizes;
@@ -155,16 +168,15 @@ Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& st
   const fem::NodeGraph graph(*state.triangulation);
   const auto shape_operator = shape_operator_of(state, graph);
   const adapt::PhaseInterface phases = phases_of(model, state);
-  const auto sizes_with = [&](double angle) {
-    auto changed = options;
-    changed.curvature_angle = angle;
-    return adapt::size_field(surface, graph, shape_operator, phases, changed);
+  const auto sizes_of = [&](double growth) {
+    return adapt::size_field(surface, graph, shape_operator, phases, grown(options, growth));
   };
   const auto is_within = [&](const Eigen::VectorXd& sizes) {
     return adapt::wanted_nodes(surface, sizes) <= max_nodes;
   };
-  return adapt::limited_sizes(surface, finest(sizes_with, is_within, options.curvature_angle),
-                              max_nodes);
+  const double largest_growth = std::max(coarsest_angle / options.curvature_angle,
+                                         coarsest_interface / options.interface_size);
+  return adapt::limited_sizes(surface, finest(sizes_of, is_within, largest_growth), max_nodes);
 }
 
 std::vector<adapt::Mark> wanted_marks(const model::Model& model, const problem::State& state,

@@ -54,6 +54,7 @@ class IdaStepper final : public Stepper {
   StepReport begin_stage(const StepReport& reached);
   void reinitialise(double initial_step);
   [[nodiscard]] double last_step_size() const;
+  void take_final_step();
   void take_implicit_step(double size);
   [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;
   [[nodiscard]] StepReport polish_weak_form();

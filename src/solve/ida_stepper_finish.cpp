@@ -15,6 +15,9 @@ namespace {
 using sundials::check;
 using sundials::view;
 
+/// Of the last step: the longer the final step, the nearer it comes to the equilibrium.
+constexpr double final_step_growth = 8;
+
 // Polish of the weak form.
 constexpr int max_polish_steps = 12;
 constexpr double polish_step_growth = 8;
@@ -29,7 +32,7 @@ StepReport IdaStepper::finish() {
     try {
       if (options_.scheme == Scheme::variational && options_.polish) return polish_energy();
       if (options_.polish) return polish_weak_form();
-      if (options_.final_constraint_solve) take_implicit_step(last_step_size());
+      if (options_.final_constraint_solve) take_final_step();
     } catch (const RecoverableError& trouble) {
       return report(StepStatus::failed, fmt::format("final solve: {}", trouble.what()));
     }
@@ -41,6 +44,17 @@ double IdaStepper::last_step_size() const {
   double size = 0;
   check(IDAGetLastStep(ida_.get(), &size), "IDAGetLastStep");
   return size;
+}
+
+/// One long implicit step, or one of the last size where that cannot be done. Throws
+/// RecoverableError when neither can.
+void IdaStepper::take_final_step() {
+  const double size = last_step_size();
+  try {
+    take_implicit_step(final_step_growth * size);
+  } catch (const RecoverableError&) {
+    take_implicit_step(size);
+  }
 }
 
 /// One backward-Euler step with the constraints themselves in place of (e). Throws RecoverableError

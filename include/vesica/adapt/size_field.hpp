@@ -21,13 +21,13 @@ struct SizeFieldOptions {
   static void fields(Self& self, Visitor&& visit) {
     visit(Field{"max_size", "length", "largest edge of an element", Rule::positive}, self.max_size);
     visit(Field{"curvature_angle", "rad",
-                "edge times |Q|, Q the shape operator: 0.35 to 0.5 in motion, 0.18 to 0.25 for a "
+                "edge times |Q|, Q the shape operator: 0.35 to 0.5 in motion, 0.18 for a "
                 "final mesh",
                 Rule::positive},
           self.curvature_angle);
     visit(Field{"interface_size", "-",
-                "edge in the phase interface over the interface width: 0.7 to 1 in motion, 0.5 to "
-                "0.7 for a final mesh",
+                "edge in the phase interface over the interface width: 0.7 to 1 in motion, 0.2 to "
+                "0.5 for a final mesh",
                 Rule::positive},
           self.interface_size);
     visit(Field{"growth", "-", "largest change of the edge length with distance", Rule::positive},

@@ -41,7 +41,7 @@ struct AdaptionOptions {
   double curvature_angle = 0.4;
   double interface_size = 0.85;
   double final_curvature_angle = 0.18;
-  double final_interface_size = 0.5;
+  double final_interface_size = 0.2;
   double max_size = 0.3;
   int max_nodes = 14000;
   int min_steps = 8;

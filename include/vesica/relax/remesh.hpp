@@ -12,8 +12,7 @@ namespace vesica::relax {
 
 /// Wanted length of edges at each node of the state [length], shape (N): the size field of its
 /// recovered shape operator and order parameter. When it asks for more than `max_nodes`, first the
-/// curvature angle grows, up to 0.5, then all edges: the energy is more sensitive to the mesh in
-/// the interface.
+/// curvature angle and the interface size grow by one factor, each up to 0.5, then all edges.
 [[nodiscard]] Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& state,
                                            const adapt::SizeFieldOptions& options,
                                            double max_nodes);

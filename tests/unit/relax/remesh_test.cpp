@@ -83,6 +83,46 @@ TEST(Remesh, StaysNearTheLargestNumberOfNodes) {
   EXPECT_NEAR(changed->triangulation->num_nodes(), 1500, 375);
 }
 
+/// Smallest sizes in the interface and at the tips of the smooth case.
+struct SmallestSizes {
+  double interface = 0;
+  double tip = 0;
+};
+
+SmallestSizes smallest_sizes(const test::RelaxationCase& c, const adapt::SizeFieldOptions& options,
+                             double max_nodes) {
+  const Eigen::VectorXd sizes = wanted_sizes(c.model, c.start, options, max_nodes);
+  const Eigen::ArrayXd place = c.start.values.positions.col(0).array().abs();
+  return {(place < 0.2).select(sizes, 1e3).minCoeff(), (place > 1.5).select(sizes, 1e3).minCoeff()};
+}
+
+TEST(WantedSizes, GrowByOneFactorToHalfAndThenAllTogetherWhereNodesAreShort) {
+  const auto c = smooth_case();
+  adapt::SizeFieldOptions options;
+  options.max_size = 100;
+  options.curvature_angle = 0.3;
+  options.interface_size = 0.2;
+  const SmallestSizes fine = smallest_sizes(c, options, 1e9);
+  const Eigen::VectorXd sizes = wanted_sizes(c.model, c.start, options, 1e9);
+  const double nodes = adapt::wanted_nodes(c.start.surface(), sizes);
+  EXPECT_NEAR(fine.interface, 0.2 * 0.3, 1e-12);
+
+  const SmallestSizes fewer = smallest_sizes(c, options, 0.6 * nodes);
+  const double factor = fewer.interface / fine.interface;
+  EXPECT_GT(factor, 1.2);
+  EXPECT_LT(factor, 0.5 / 0.3);
+  EXPECT_NEAR(fewer.tip / fine.tip, factor, 1e-9);
+
+  const SmallestSizes few = smallest_sizes(c, options, 0.3 * nodes);
+  EXPECT_NEAR(few.tip / fine.tip, 0.5 / 0.3, 1e-9);
+  EXPECT_GT(few.interface / fine.interface, 0.5 / 0.3);
+  EXPECT_LT(few.interface / fine.interface, 0.5 / 0.2);
+
+  const SmallestSizes fewest = smallest_sizes(c, options, 0.02 * nodes);
+  EXPECT_GT(fewest.interface, 0.5 * 0.3);
+  EXPECT_NEAR(fewest.tip / fewest.interface, 0.5 / 0.3 * fine.tip / (0.5 * 0.3), 1e-9);
+}
+
 TEST(Remesh, InTheMiddleOfARampGoesOnWithIt) {
   auto c = test::table_1_case(2);
   const double volume = c.model.targets.volume->last();
