@@ -15,6 +15,7 @@ using sundials::view;
 
 constexpr int max_iterations = 8;
 constexpr int krylov_dimension = 20;
+constexpr int patience = 3;  // iterations, after which the changes must be half of the first
 constexpr double negligible_change = 1e-6;
 constexpr double linear_tolerance = 1e-3;  // of the norm of the right-hand side
 constexpr double difference = 1e-3;        // of the error allowed in a step; more is too curved
@@ -112,11 +113,15 @@ std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
   system.set_up(linear.settings, {1, 1 / step.step_size}, step.time, linear.y,
                 step.rates(linear.y));
   Gmres gmres(linear);
+  double first_change = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     linear.residual = system.residual(linear.settings, step.time, linear.y, step.rates(linear.y));
     const Eigen::VectorXd change = gmres.solve(linear.residual);
     linear.y -= change;
-    if (linear.norm(change) < negligible_change) return linear.y;
+    const double size = linear.norm(change);
+    if (size < negligible_change) return linear.y;
+    if (iteration == 0) first_change = size;
+    if (iteration >= patience && size > first_change / 2) break;
   }
   return std::nullopt;
 }

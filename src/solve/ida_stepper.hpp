@@ -55,7 +55,7 @@ class IdaStepper final : public Stepper {
   void reinitialise(double initial_step);
   [[nodiscard]] double last_step_size() const;
   void take_final_step();
-  void take_implicit_step(double size);
+  bool take_implicit_step(double size, const problem::EquationSettings& settings);
   [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;
   [[nodiscard]] StepReport polish_weak_form();
   [[nodiscard]] StepReport polish_energy();

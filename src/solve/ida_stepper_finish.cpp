@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "backward_euler.hpp"
@@ -15,14 +16,20 @@ namespace {
 using sundials::check;
 using sundials::view;
 
-/// Of the last step: the longer the final step, the nearer it comes to the equilibrium.
-constexpr double final_step_growth = 8;
+constexpr double mesh_holding_damping = 1e4;  // natural units: nodes stay where they are
+
+/// The longer the final step, the nearer it comes to the equilibrium; with its nodes held along the
+/// surface it can be done where free nodes go too far.
+struct FinalStep {
+  double growth;  // over the last step
+  bool holds_mesh;
+};
+constexpr std::array<FinalStep, 3> final_steps = {{{8, false}, {8, true}, {1, false}}};
 
 // Polish of the weak form.
 constexpr int max_polish_steps = 12;
 constexpr double polish_step_growth = 8;
-constexpr double largest_polish_step = 1;     // natural times
-constexpr double mesh_holding_damping = 1e4;  // natural units: nodes stay where they are
+constexpr double largest_polish_step = 1;  // natural times
 constexpr double polished_gradient = 1e-8;
 
 }  // namespace
@@ -46,31 +53,35 @@ double IdaStepper::last_step_size() const {
   return size;
 }
 
-/// One long implicit step, or one of the last size where that cannot be done. Throws
-/// RecoverableError when neither can.
+/// The first of the final steps that can be done. Throws RecoverableError when none can.
 void IdaStepper::take_final_step() {
   const double size = last_step_size();
-  try {
-    take_implicit_step(final_step_growth * size);
-  } catch (const RecoverableError&) {
-    take_implicit_step(size);
+  for (const auto& [growth, holds_mesh] : final_steps) {
+    auto settings = settings_;
+    if (holds_mesh) settings.damping = mesh_holding_damping * scales_.damping();
+    try {
+      if (take_implicit_step(growth * size, settings)) return;
+    } catch (const RecoverableError&) {  // a degenerate surface: the next may be better
+    }
   }
+  throw RecoverableError("Newton's method does not converge");
 }
 
-/// One backward-Euler step with the constraints themselves in place of (e). Throws RecoverableError
-/// when it cannot be done.
-void IdaStepper::take_implicit_step(double size) {
+/// One backward-Euler step with the constraints themselves in place of (e); false when Newton's
+/// method does not converge. Throws RecoverableError for a degenerate surface.
+bool IdaStepper::take_implicit_step(double size, const problem::EquationSettings& settings) {
   BackwardEulerStep step{
-      settings_, 0, size, y_, problem_->differential_mask(), Eigen::VectorXd(y_.size())};
+      settings, 0, size, y_, problem_->differential_mask(), Eigen::VectorXd(y_.size())};
   const auto weights = sundials::make_vector(y_.size(), context_);
   check(IDAGetErrWeights(ida_.get(), weights.get()), "IDAGetErrWeights");
   step.weights = view(weights.get());
   step.time = state_.time + step.step_size;
   const auto y = solve_backward_euler(system_, step);
-  if (!y) throw RecoverableError("Newton's method does not converge");
+  if (!y) return false;
   y_rate_ = step.rates(*y);
   y_ = *y;
   store(step.time, y_, y_rate_);
+  return true;
 }
 
 /// ||v_nu|| of the normal force that moves the surface, over that of the pressure, or of k_kappa /
