@@ -167,6 +167,19 @@ TEST(IdaStepper, TakesTheConstraintsToRoundOffAtTheEnd) {
   EXPECT_LT(std::abs(*errors.phase), 1e-12);
 }
 
+TEST(IdaStepper, ComesNearerToTheEquilibriumAtTheEnd) {
+  const auto c = test::table_1_case(2);
+  const auto stepper = stepper_for(c);
+  const auto speed = [&] {
+    return problem::measure(c.model, stepper->state()).velocity.normal_rigid_free;
+  };
+  while (stepper->state().time < 0.01 || speed() > 0.01)
+    ASSERT_EQ(stepper->step(infinity).status, StepStatus::accepted);
+  const double before = speed();
+  ASSERT_EQ(stepper->finish().status, StepStatus::accepted);
+  EXPECT_LT(speed(), 0.5 * before);  // a step of the last size leaves it as it is
+}
+
 TEST(IdaStepper, LeavesTheStateWhenTheFinalSolveIsSwitchedOff) {
   const auto c = test::table_1_case(2);
   SolverOptions options;
