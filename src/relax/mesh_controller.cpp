@@ -16,6 +16,7 @@ constexpr double low_quality = 0.3;
 constexpr double lost_quality = 0.75;
 constexpr double long_edge = 1.9;
 constexpr double emergency_edge = 2.2;
+constexpr double emergency_edge_near_rest = 3;
 constexpr double surplus_nodes = 0.55;
 constexpr double slow = 0.03;  // velocities in natural units
 constexpr double moving = 0.3;
@@ -86,7 +87,9 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
       wanted_sizes(model_, view.state, size_options(), options_.max_nodes);
   const mesh::Surface surface = view.state.surface();
   const double edge = adapt::longest_relative_edge(surface, sizes);
-  if (edge > emergency_edge) return fmt::format("an edge is {:.2f} of its size", edge);
+  const bool is_near_rest = is_final_ && speed(view) < slow;
+  if (edge > (is_near_rest ? emergency_edge_near_rest : emergency_edge))
+    return fmt::format("an edge is {:.2f} of its size", edge);
   if (view.report.counts.steps - last_change_ < options_.min_steps) return std::nullopt;
   const double quality = view.diagnostics.quality;
   if (quality < low_quality && quality < lost_quality * *new_quality_)

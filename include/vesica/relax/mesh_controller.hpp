@@ -117,8 +117,9 @@ struct AdaptionOptions {
 ///     once, normal velocity without rigid motion below 0.03 (natural units): the fine mesh, until
 ///     the velocity is above 0.3 again
 ///
-/// without waiting: an edge longer than 2.2 L; after failed steps, 5 times at most; and before the
-/// run ends in an equilibrium: the fine mesh if there is none yet.
+/// without waiting: an edge longer than 2.2 L, of a fine mesh below that velocity 3 L; after failed
+/// steps, 5 times at most; and before the run ends in an equilibrium: the fine mesh if there is
+/// none yet.
 class MeshController final : public Controller {
  public:
   /// `scales` of the case give the units of max_size and of the velocity.

@@ -118,6 +118,19 @@ TEST_F(MeshControllerTest, DoesNotEndOnACoarseMesh) {
   EXPECT_TRUE(controller.respond_to_rest(view_at(6)).empty());
 }
 
+TEST_F(MeshControllerTest, LeavesLongEdgesOfAFineMeshAloneNearRest) {
+  const auto asks_with = [this](double ratio, double speed) {
+    options_.final_curvature_angle = edge_for_unit_angle() / ratio;
+    MeshController controller(options_, model_, scales_);
+    EXPECT_EQ(controller.respond_to_rest(view_at(3)).size(), 1U);
+    diagnostics_.velocity.normal_rigid_free = speed;
+    return !controller.respond(view_at(11)).empty();
+  };
+  EXPECT_TRUE(asks_with(2.9, 0.031));
+  EXPECT_FALSE(asks_with(2.9, 0.029));
+  EXPECT_TRUE(asks_with(3.1, 0.029));
+}
+
 TEST_F(MeshControllerTest, GoesBackToTheCoarseMeshWhenTheVesicleMovesAgain) {
   options_.final_curvature_angle = 0.4 * options_.curvature_angle;
   MeshController controller(options_, model_, scales_);
