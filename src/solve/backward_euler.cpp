@@ -13,9 +13,9 @@ namespace {
 using sundials::check;
 using sundials::view;
 
-constexpr int max_iterations = 8;
+constexpr int max_iterations = 16;
 constexpr int krylov_dimension = 20;
-constexpr int patience = 3;  // iterations, after which the changes must be half of the first
+constexpr int patience = 2;  // iterations, from which on the changes must halve each time
 constexpr double negligible_change = 1e-6;
 constexpr double linear_tolerance = 1e-3;  // of the norm of the right-hand side
 constexpr double difference = 1e-3;        // of the error allowed in a step; more is too curved
@@ -121,7 +121,7 @@ std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
     const double size = linear.norm(change);
     if (size < negligible_change) return linear.y;
     if (iteration == 0) first_change = size;
-    if (iteration >= patience && size > first_change / 2) break;
+    if (iteration > patience && size > std::ldexp(first_change, patience - iteration)) break;
   }
   return std::nullopt;
 }

@@ -19,13 +19,12 @@ using sundials::view;
 constexpr double mesh_holding_damping = 1e4;  // natural units: nodes stay where they are
 
 /// The longer the final step, the nearer it comes to the equilibrium; with its nodes held along the
-/// surface it can be done where free nodes go too far, and a short one meets the constraints.
+/// surface it can be done where free nodes go too far.
 struct FinalStep {
   double growth;  // over the last step
   bool holds_mesh;
 };
-constexpr std::array<FinalStep, 4> final_steps = {
-    {{8, false}, {8, true}, {0.1, true}, {0.01, false}}};
+constexpr std::array<FinalStep, 3> final_steps = {{{8, false}, {8, true}, {1, true}}};
 
 // Polish of the weak form.
 constexpr int max_polish_steps = 12;
