@@ -15,7 +15,10 @@ using sundials::view;
 
 constexpr int max_iterations = 16;
 constexpr int krylov_dimension = 20;
-constexpr int patience = 2;  // iterations, from which on the changes must halve each time
+// Newton's method goes on while the changes are below half of the first after 4 iterations, and
+// below a hundredth after 8; they need not fall in each.
+constexpr int early = 3;
+constexpr int late = 7;
 constexpr double negligible_change = 1e-6;
 constexpr double linear_tolerance = 1e-3;  // of the norm of the right-hand side
 constexpr double difference = 1e-3;        // of the error allowed in a step; more is too curved
@@ -121,7 +124,8 @@ std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
     const double size = linear.norm(change);
     if (size < negligible_change) return linear.y;
     if (iteration == 0) first_change = size;
-    if (iteration > patience && size > std::ldexp(first_change, patience - iteration)) break;
+    const double wanted = first_change * (iteration < late ? 0.5 : 0.01);
+    if (iteration >= early && size > wanted) break;
   }
   return std::nullopt;
 }
