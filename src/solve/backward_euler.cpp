@@ -13,12 +13,8 @@ namespace {
 using sundials::check;
 using sundials::view;
 
-constexpr int max_iterations = 16;
 constexpr int krylov_dimension = 20;
-// Newton's method goes on while the changes are below half of the first after 4 iterations, and
-// below a hundredth after 8; they need not fall in each.
-constexpr int early = 3;
-constexpr int late = 7;
+constexpr int patience = 3;  // iterations, after which the changes must be half of the first
 constexpr double negligible_change = 1e-6;
 constexpr double linear_tolerance = 1e-3;  // of the norm of the right-hand side
 constexpr double difference = 1e-3;        // of the error allowed in a step; more is too curved
@@ -117,15 +113,14 @@ std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
                 step.rates(linear.y));
   Gmres gmres(linear);
   double first_change = 0;
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+  for (int iteration = 0; iteration < step.max_iterations; ++iteration) {
     linear.residual = system.residual(linear.settings, step.time, linear.y, step.rates(linear.y));
     const Eigen::VectorXd change = gmres.solve(linear.residual);
     linear.y -= change;
     const double size = linear.norm(change);
     if (size < negligible_change) return linear.y;
     if (iteration == 0) first_change = size;
-    const double wanted = first_change * (iteration < late ? 0.5 : 0.01);
-    if (iteration >= early && size > wanted) break;
+    if (iteration >= patience && size > first_change / 2) break;
   }
   return std::nullopt;
 }

@@ -16,6 +16,7 @@ struct BackwardEulerStep {
   Eigen::VectorXd start;         ///< y at its beginning
   Eigen::VectorXd differential;  ///< 1 where an unknown has a rate
   Eigen::VectorXd weights;       ///< inverse size of a negligible change of each unknown
+  int max_iterations = 8;        ///< of Newton's method
 
   [[nodiscard]] Eigen::VectorXd rates(const Eigen::VectorXd& y) const {
     return (y - start).cwiseProduct(differential) / step_size;
@@ -25,7 +26,7 @@ struct BackwardEulerStep {
 /// Solves it by Newton's method; linear systems by GMRES on difference quotients of the residual,
 /// with the factors of the Jacobian at the start as preconditioner: exact where that Jacobian holds
 /// a surrogate. Returns y, or nothing when the changes do not become negligible (WRMS norm below
-/// 1e-6) in a few iterations. Throws RecoverableError for a degenerate surface.
+/// 1e-6) in max_iterations. Throws RecoverableError for a degenerate surface.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_backward_euler(NewtonSystem& system,
                                                                   const BackwardEulerStep& step);
 

@@ -55,7 +55,8 @@ class IdaStepper final : public Stepper {
   void reinitialise(double initial_step);
   [[nodiscard]] double last_step_size() const;
   void take_final_step();
-  bool take_implicit_step(double size, const problem::EquationSettings& settings);
+  bool take_implicit_step(double size, const problem::EquationSettings& settings,
+                          int max_iterations);
   [[nodiscard]] double relative_force(const problem::Diagnostics& measured) const;
   [[nodiscard]] StepReport polish_weak_form();
   [[nodiscard]] StepReport polish_energy();

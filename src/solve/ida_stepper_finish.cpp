@@ -18,13 +18,14 @@ using sundials::view;
 
 constexpr double mesh_holding_damping = 1e4;  // natural units: nodes stay where they are
 
-/// The longer the final step, the nearer it comes to the equilibrium; with its nodes held along the
-/// surface it can be done where free nodes go too far.
+/// The longer the final step, the nearer it comes to the equilibrium. With free nodes it is given
+/// up early, since they would go far; with nodes held along the surface it may take its time.
 struct FinalStep {
   double growth;  // over the last step
   bool holds_mesh;
+  int max_iterations;
 };
-constexpr std::array<FinalStep, 3> final_steps = {{{8, false}, {8, true}, {1, true}}};
+constexpr std::array<FinalStep, 3> final_steps = {{{8, false, 8}, {8, true, 16}, {1, true, 16}}};
 
 // Polish of the weak form.
 constexpr int max_polish_steps = 12;
@@ -56,11 +57,11 @@ double IdaStepper::last_step_size() const {
 /// The first of the final steps that can be done. Throws RecoverableError when none can.
 void IdaStepper::take_final_step() {
   const double size = last_step_size();
-  for (const auto& [growth, holds_mesh] : final_steps) {
+  for (const auto& [growth, holds_mesh, max_iterations] : final_steps) {
     auto settings = settings_;
     if (holds_mesh) settings.damping = mesh_holding_damping * scales_.damping();
     try {
-      if (take_implicit_step(growth * size, settings)) return;
+      if (take_implicit_step(growth * size, settings, max_iterations)) return;
     } catch (const RecoverableError&) {  // a degenerate surface: the next may be better
     }
   }
@@ -69,12 +70,14 @@ void IdaStepper::take_final_step() {
 
 /// One backward-Euler step with the constraints themselves in place of (e); false when Newton's
 /// method does not converge. Throws RecoverableError for a degenerate surface.
-bool IdaStepper::take_implicit_step(double size, const problem::EquationSettings& settings) {
+bool IdaStepper::take_implicit_step(double size, const problem::EquationSettings& settings,
+                                    int max_iterations) {
   BackwardEulerStep step{
       settings, 0, size, y_, problem_->differential_mask(), Eigen::VectorXd(y_.size())};
   const auto weights = sundials::make_vector(y_.size(), context_);
   check(IDAGetErrWeights(ida_.get(), weights.get()), "IDAGetErrWeights");
   step.weights = view(weights.get());
+  step.max_iterations = max_iterations;
   step.time = state_.time + step.step_size;
   const auto y = solve_backward_euler(system_, step);
   if (!y) return false;
