@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "io/json_reader.hpp"
@@ -11,22 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* prolate_case = R"(
-[shape]
-kind = "ellipsoid"
-semi_axes = [1.4, 0.9, 0.9]
-resolution = 2
-
-[solver]
-rtol = 1e-2
-
-[stop]
-normal_velocity = 1e-2
-)";
-
 class CompareTest : public test::ProgramTest {
  protected:
-  CompareTest() { write("prolate.toml", prolate_case); }
+  CompareTest() { write("prolate.toml", test::prolate_case); }
   int compare(const std::string& arguments) { return run(program_compare, arguments); }
 };
 

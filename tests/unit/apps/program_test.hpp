@@ -13,6 +13,20 @@
 
 namespace vesica::test {
 
+/// A coarse ellipsoid with loose tolerances.
+inline constexpr const char* prolate_case = R"(
+[shape]
+kind = "ellipsoid"
+semi_axes = [1.4, 0.9, 0.9]
+resolution = 2
+
+[solver]
+rtol = 1e-2
+
+[stop]
+normal_velocity = 1e-2
+)";
+
 /// Runs programs as a user does, in a folder of its own.
 class ProgramTest : public ::testing::Test {
  protected:
