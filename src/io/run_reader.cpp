@@ -189,8 +189,8 @@ relax::RunStatus status_named(const std::string& name, const fs::path& file) {
   using relax::RunStatus;
   for (const RunStatus status :
        {RunStatus::converged, RunStatus::time_limit, RunStatus::step_limit, RunStatus::stopped,
-        RunStatus::neck_closes, RunStatus::self_intersection, RunStatus::interrupted,
-        RunStatus::numerical_failure}) {
+        RunStatus::neck_closes, RunStatus::budding, RunStatus::self_intersection,
+        RunStatus::interrupted, RunStatus::numerical_failure}) {
     if (status_name(status) == name) return status;
   }
   throw IoError(fmt::format("{}: /status \"{}\" is not known", file.string(), name));

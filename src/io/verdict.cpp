@@ -200,6 +200,8 @@ std::string_view status_name(relax::RunStatus status) {
       return "stopped";
     case relax::RunStatus::neck_closes:
       return "neck closes";
+    case relax::RunStatus::budding:
+      return "budding";
     case relax::RunStatus::self_intersection:
       return "self-intersection";
     case relax::RunStatus::interrupted:
@@ -219,6 +221,7 @@ int exit_status(const relax::Outcome& outcome) {
     case relax::RunStatus::step_limit:
     case relax::RunStatus::stopped:
     case relax::RunStatus::neck_closes:
+    case relax::RunStatus::budding:
     case relax::RunStatus::self_intersection:
       return 1;
     case relax::RunStatus::interrupted:

@@ -136,7 +136,7 @@ class LoopSearch {
     }
     neck.separates = sides.cuts[index(e)];
     neck.larger_area = sides.whole_area;
-    neck.side_areas = Eigen::VectorXd::Zero(surface_.positions.rows());
+    neck.side_areas = Eigen::MatrixX2d::Zero(surface_.positions.rows(), 2);
     if (neck.separates) add_sides(sides, e, neck);
     return neck;
   }
@@ -151,9 +151,9 @@ class LoopSearch {
     const std::int32_t end = begin + sides.count[index(top)];
     for (const std::int32_t triangle : sides.order) {
       const std::int32_t place = sides.place[index(triangle)];
-      if ((place >= begin && place < end) != far_is_smaller) continue;
+      const bool is_far = place >= begin && place < end;
       for (const NodeIndex node : flat_.triangles[index(triangle)])
-        neck.side_areas[node] += areas_[index(triangle)] / 3;
+        neck.side_areas(node, is_far == far_is_smaller ? 0 : 1) += areas_[index(triangle)] / 3;
     }
   }
 

@@ -17,16 +17,30 @@ constexpr int max_thin_steps = 100;
 constexpr double slow = 0.03;  // as for the mesh near the equilibrium
 constexpr double one_phase = 0.95;
 
-/// "a neck closes" or, when one side is of one phase, "a domain of phase 2 buds".
-std::string what_closes(const mesh::Neck& neck, const problem::State& state) {
-  if (!neck.separates) return "a neck closes that does not cut the surface in two";
-  if (state.is_two_phase()) {
-    const auto is_phase_1 = (state.values.order_parameter.array() > 0).cast<double>();
-    const double share = (neck.side_areas.array() * is_phase_1).sum() / neck.smaller_area;
-    if (share > one_phase) return "a domain of phase 1 buds, its neck closes";
-    if (share < 1 - one_phase) return "a domain of phase 2 buds, its neck closes";
-  }
-  return "a neck closes";
+struct Closing {
+  RunStatus status;
+  std::string what;
+};
+
+/// Shares of phase 1 in the areas of the smaller and the larger side.
+Eigen::Array2d shares_of_phase_1(const mesh::Neck& neck, const problem::State& state) {
+  const Eigen::VectorXd is_phase_1 =
+      (state.values.order_parameter.array() > 0).matrix().cast<double>();
+  const Eigen::Array2d areas(neck.smaller_area, neck.larger_area);
+  return (neck.side_areas.transpose() * is_phase_1).array() / areas;
+}
+
+Closing closing(const mesh::Neck& neck, const problem::State& state) {
+  if (!neck.separates)
+    return {RunStatus::neck_closes, "a neck closes that does not cut the surface in two"};
+  if (!state.is_two_phase()) return {RunStatus::neck_closes, "a neck closes"};
+  const Eigen::Array2d phase_1 = shares_of_phase_1(neck, state);
+  const int phase = phase_1[0] > 0.5 ? 1 : 2;
+  const Eigen::Array2d shares = phase == 1 ? phase_1 : 1 - phase_1;
+  if (shares[0] < one_phase) return {RunStatus::neck_closes, "a neck closes"};
+  if (shares[1] < 1 - one_phase)
+    return {RunStatus::neck_closes, "the neck between the phases closes"};
+  return {RunStatus::budding, fmt::format("a domain of phase {} buds, its neck closes", phase)};
 }
 
 }  // namespace
@@ -79,11 +93,11 @@ Stop NeckController::stop(const StepView& view) const {
   if (neck_->separates)
     sides = fmt::format(", areas {:.4g} and {:.4g} on its sides", neck_->smaller_area,
                         neck_->larger_area);
-  return {RunStatus::neck_closes,
+  const auto [status, what] = closing(*neck_, view.state);
+  return {status,
           fmt::format("{}: length {:.3g} (radius {:.3g}, {:.2f} of the {}) at ({:.4g}, {:.4g}, "
                       "{:.4g}){}",
-                      what_closes(*neck_, view.state), neck_->length, neck_->radius(),
-                      neck_->radius() / width(view),
+                      what, neck_->length, neck_->radius(), neck_->radius() / width(view),
                       view.state.is_two_phase() ? "interface width" : "length 0.2 R_c", x.x(),
                       x.y(), x.z(), sides)};
 }

@@ -46,8 +46,8 @@ void print_verdict(std::ostream& out, const Verdict& verdict);
 /// The files of a finished run, one a line.
 void print_files(std::ostream& out, const RunConfig& config);
 
-/// "converged", "time limit", "step limit", "neck closes", "self-intersection", "interrupted",
-/// "numerical failure"; "stopped" when a controller of the user ended the run.
+/// "converged", "time limit", "step limit", "neck closes", "budding", "self-intersection",
+/// "interrupted", "numerical failure"; "stopped" when a controller of the user ended the run.
 [[nodiscard]] std::string_view status_name(relax::RunStatus status);
 
 /// Exit status of the program: 0 converged, 1 stopped before convergence, 3 numerical failure, 128

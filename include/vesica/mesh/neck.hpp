@@ -16,8 +16,9 @@ struct Neck {
   bool separates = true;                             ///< the curve cuts its component in two
   double smaller_area = 0;  ///< of the two sides; 0 unless it separates [length^2]
   double larger_area = 0;   ///< or of the whole component [length^2]
-  /// Area of the smaller side as shares of the nodes, shape (N); zero unless it separates.
-  Eigen::VectorXd side_areas;
+  /// Areas of the smaller and the larger side as shares of the nodes, shape (N, 2); zero unless it
+  /// separates.
+  Eigen::MatrixX2d side_areas;
 
   [[nodiscard]] double radius() const { return length / (2 * std::numbers::pi); }
 };

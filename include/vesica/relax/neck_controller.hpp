@@ -11,7 +11,7 @@
 
 namespace vesica::relax {
 
-/// Ends a run in which a neck closes (RunStatus::neck_closes): the surface is about to change its
+/// Ends a run in which a neck closes: the surface is about to change its
 /// topology, which no step can follow. With the length w = interface width, 0.2 R_c for a single
 /// phase, and the radius r = length / 2 pi of the shortest neck (mesh::find_neck):
 ///
@@ -20,8 +20,9 @@ namespace vesica::relax {
 ///
 /// as long as the neck shrinks, so r is smaller than it was up to four steps before, and the
 /// vesicle moves, with a normal velocity without rigid motion above 0.03 (natural units): a thin
-/// neck at rest is an equilibrium. Where the smaller side is of one phase (95 % of its area) the
-/// reason tells that a domain buds.
+/// neck at rest is an equilibrium. The status is RunStatus::budding where the smaller side is of
+/// one phase (95 % of its area) which is also on the larger side (5 % of its area), so that it
+/// becomes a domain of its own, and RunStatus::neck_closes elsewhere.
 class NeckController final : public Controller {
  public:
   /// `scales` of the case give R_c and the unit of the velocity.

@@ -42,6 +42,7 @@ enum class RunStatus {
   time_limit,
   stopped,
   neck_closes,
+  budding,
   self_intersection,
   interrupted,
   numerical_failure

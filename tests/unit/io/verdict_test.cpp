@@ -86,6 +86,7 @@ TEST(Verdict, StatusHasTheNamesOfTheInterface) {
   EXPECT_EQ(status_name(RunStatus::time_limit), "time limit");
   EXPECT_EQ(status_name(RunStatus::step_limit), "step limit");
   EXPECT_EQ(status_name(RunStatus::neck_closes), "neck closes");
+  EXPECT_EQ(status_name(RunStatus::budding), "budding");
   EXPECT_EQ(status_name(RunStatus::self_intersection), "self-intersection");
   EXPECT_EQ(status_name(RunStatus::interrupted), "interrupted");
   EXPECT_EQ(status_name(RunStatus::numerical_failure), "numerical failure");
@@ -103,6 +104,7 @@ TEST(Verdict, ExitStatusTellsHowTheRunEnded) {
   EXPECT_EQ(status(RunStatus::step_limit), 1);
   EXPECT_EQ(status(RunStatus::stopped), 1);
   EXPECT_EQ(status(RunStatus::neck_closes), 1);
+  EXPECT_EQ(status(RunStatus::budding), 1);
   EXPECT_EQ(status(RunStatus::self_intersection), 1);
   EXPECT_EQ(status(RunStatus::numerical_failure), 3);
   EXPECT_EQ(status(RunStatus::interrupted, SIGINT), 130);

@@ -1,5 +1,6 @@
 #include "vesica/relax/neck_controller.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -28,7 +29,7 @@ class NeckControllerTest : public ControllerTest {
     const mesh::Surface surface = mesh::make_shape(options);
     state_.triangulation = surface.triangulation;
     state_.values.positions = surface.positions;
-    state_.values.order_parameter = (surface.positions.col(0).array() - interface_).sign();
+    state_.values.order_parameter = (surface.positions.col(axis_).array() - interface_).sign();
     if (!model_.is_two_phase) state_.values.order_parameter.resize(0);
   }
 
@@ -46,14 +47,16 @@ class NeckControllerTest : public ControllerTest {
     return answer(controller, radii);
   }
 
-  static std::string reason_of(const std::vector<Request>& requests) {
+  static std::string reason_of(const std::vector<Request>& requests,
+                               RunStatus status = RunStatus::neck_closes) {
     if (requests.size() != 1) return "no single request";
     const Stop* stop = std::get_if<Stop>(&requests.front());
-    if (stop == nullptr || stop->status != RunStatus::neck_closes) return "no closing neck";
+    if (stop == nullptr || stop->status != status) return "no request to stop with this status";
     return stop->reason;
   }
 
-  double interface_ = 2;  // where c changes its sign
+  double interface_ = 2;  // where c changes its sign: at the waist
+  Eigen::Index axis_ = 0;
 };
 
 TEST_F(NeckControllerTest, EndsARunWhoseNeckIsBelow15HundredthsOfTheInterfaceWidth) {
@@ -82,7 +85,7 @@ TEST_F(NeckControllerTest, ExplainsAFailureOrALimitByAThinNeck) {
   EXPECT_TRUE(answer(controller, {0.09}).empty());
   for (const std::string& reason : {reason_of(controller.respond_to_failure(view())),
                                     reason_of(controller.respond_to_limit(view()))})
-    EXPECT_NE(reason.find("buds, its neck closes: length 0.5"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("closes: length 0.5"), std::string::npos) << reason;
 }
 
 TEST_F(NeckControllerTest, DoesNotFollowAThinNeckForMoreThanAHundredSteps) {
@@ -93,14 +96,25 @@ TEST_F(NeckControllerTest, DoesNotFollowAThinNeckForMoreThanAHundredSteps) {
   EXPECT_FALSE(answer(controller, {0.0799}).empty());
 }
 
-TEST_F(NeckControllerTest, TellsThatADomainBuds) {
-  interface_ = 2;
-  const std::string bud = reason_of(answer({0.055, 0.05}));
-  EXPECT_TRUE(bud.starts_with("a domain of phase ")) << bud;
-  interface_ = -1;
-  const std::string of_phase_1 = reason_of(answer({0.055, 0.05}));
-  EXPECT_TRUE(of_phase_1.starts_with("a domain of phase 1 buds, its neck closes: length "))
-      << of_phase_1;
+TEST_F(NeckControllerTest, CallsItBuddingWhenAPhaseGetsANewDomain) {
+  for (const int phase : {1, 2}) {
+    interface_ = phase == 1 ? -1 : 5;
+    const std::string reason = reason_of(answer({0.055, 0.05}), RunStatus::budding);
+    const std::string start = fmt::format("a domain of phase {} buds, its neck closes: ", phase);
+    EXPECT_TRUE(reason.starts_with(start)) << reason;
+  }
+}
+
+TEST_F(NeckControllerTest, DoesNotCallItBuddingWhenThePhasesPart) {
+  const std::string reason = reason_of(answer({0.055, 0.05}));
+  EXPECT_TRUE(reason.starts_with("the neck between the phases closes: length ")) << reason;
+}
+
+TEST_F(NeckControllerTest, DoesNotCallItBuddingWhenBothPhasesAreOnBothSides) {
+  axis_ = 1;
+  interface_ = 0.5;
+  const std::string reason = reason_of(answer({0.055, 0.05}));
+  EXPECT_TRUE(reason.starts_with("a neck closes: length ")) << reason;
 }
 
 TEST_F(NeckControllerTest, MeasuresTheNeckOfASinglePhaseByTheRadiusOfTheVesicle) {
