@@ -1,8 +1,10 @@
 #include "vesica/io/run_folder.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-#include <fmt/format.h>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -45,6 +47,7 @@ void check_run_folder(const fs::path& folder, const fs::path& case_file, bool ov
     throw ConfigError(fmt::format("{}: holds the case file itself; choose another output folder",
                                   folder.string()));
   }
+  if (fs::is_directory(folder, ignored)) const FolderLock free(folder);
   if (overwrite) return;
   for (const std::string_view name : files_of_a_run) {
     if (fs::exists(folder / name, ignored)) {
@@ -54,6 +57,18 @@ void check_run_folder(const fs::path& folder, const fs::path& case_file, bool ov
     }
   }
 }
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0)
+    throw IoError(fmt::format("{}: cannot be opened ({})", folder.string(), last_system_error()));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw ConfigError(fmt::format("{}: a run is writing to it; choose another output folder or wait",
+                                folder.string()));
+}
+
+FolderLock::~FolderLock() { ::close(descriptor_); }
 
 void create_run_folder(const fs::path& folder) {
   std::error_code error;

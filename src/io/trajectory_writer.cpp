@@ -27,6 +27,7 @@ class TrajectoryWriter::Writer {
  public:
   Writer(fs::path folder, const RunConfig& config, const model::Model& model)
       : folder_(std::move(folder)),
+        lock_(folder_),
         output_(config.output),
         file_(folder_ / part_name, config, model) {}
 
@@ -83,6 +84,7 @@ class TrajectoryWriter::Writer {
   }
 
   fs::path folder_;
+  FolderLock lock_;
   OutputOptions output_;
   TrajectoryFile file_;
   mesh::Positions last_positions_;

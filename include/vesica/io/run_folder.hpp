@@ -6,11 +6,25 @@
 namespace vesica::io {
 
 /// Whether a run may be written to `folder`; nothing is created. Throws ConfigError when it holds a
-/// run (a finished one, or the `trajectory.part.h5` of one that goes on or broke off) and
-/// `overwrite` is false, or when `case_file` is the file `case.toml` in it; IoError when it is no
-/// folder or is not writable.
+/// run (a finished one, or the `trajectory.part.h5` of one that broke off) and `overwrite` is
+/// false, when a run is writing to it (FolderLock), or when `case_file` is the file `case.toml` in
+/// it; IoError when it is no folder or is not writable.
 void check_run_folder(const std::filesystem::path& folder, const std::filesystem::path& case_file,
                       bool overwrite);
+
+/// Keeps other runs out of a folder, also those of other processes, as long as it lives (flock).
+/// Does nothing on file systems without locks.
+class FolderLock {
+ public:
+  /// Throws ConfigError when another lock holds the folder, IoError when it cannot be opened.
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  int descriptor_;
+};
 
 /// Makes the folder and its parents. Throws IoError.
 void create_run_folder(const std::filesystem::path& folder);

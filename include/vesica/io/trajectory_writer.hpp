@@ -17,7 +17,8 @@ namespace vesica::io {
 /// so an older run in the folder stays whole until then.
 class TrajectoryWriter final : public relax::Observer {
  public:
-  /// Makes `trajectory.part.h5` in `folder`, which exists. Throws IoError.
+  /// Makes `trajectory.part.h5` in `folder`, which exists, and holds its FolderLock. Throws
+  /// IoError, and ConfigError when a run is writing there.
   TrajectoryWriter(std::filesystem::path folder, const RunConfig& config,
                    const model::Model& model);
   ~TrajectoryWriter() override;

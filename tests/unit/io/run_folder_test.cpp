@@ -31,6 +31,18 @@ TEST(RunFolder, AFolderThatHoldsARunIsRefusedUnlessItMayBeOverwritten) {
   }
 }
 
+TEST(RunFolder, AFolderToWhichARunIsWritingIsRefused) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "trajectory.part.h5") << "growing";
+  {
+    const FolderLock run(folder.path());
+    EXPECT_THROW(check_run_folder(folder.path(), "case.toml", true), ConfigError);
+    EXPECT_THROW(FolderLock{folder.path()}, ConfigError);
+  }
+  EXPECT_NO_THROW(check_run_folder(folder.path(), "case.toml", true));
+  EXPECT_THROW(FolderLock{folder.path() / "missing"}, IoError);
+}
+
 TEST(RunFolder, TheCaseFileItselfIsNeverOverwritten) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "case.toml") << "title = 'mine'";
