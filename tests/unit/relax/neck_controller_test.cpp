@@ -85,7 +85,8 @@ TEST_F(NeckControllerTest, ExplainsAFailureOrALimitByAThinNeck) {
   EXPECT_TRUE(answer(controller, {0.09}).empty());
   for (const std::string& reason : {reason_of(controller.respond_to_failure(view())),
                                     reason_of(controller.respond_to_limit(view()))})
-    EXPECT_NE(reason.find("closes: length 0.5"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("the neck between the phases closes: length 0.5"), std::string::npos)
+        << reason;
 }
 
 TEST_F(NeckControllerTest, DoesNotFollowAThinNeckForMoreThanAHundredSteps) {
