@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "vesica/core/error.hpp"
 
@@ -87,6 +89,11 @@ void Entry::refuse(std::string_view rule) const {
 
 std::string value_text(const toml::node& node) {
   if (node.is_floating_point()) return fmt::format("{}", node.value<double>().value());
+  if (const auto* array = node.as_array()) {
+    std::vector<std::string> elements;
+    for (const auto& element : *array) elements.push_back(value_text(element));
+    return fmt::format("[ {} ]", fmt::join(elements, ", "));
+  }
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
   return std::move(out).str();

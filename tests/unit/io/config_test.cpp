@@ -123,6 +123,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "{ times = [...], values = [...], kind = ... }"},
         BadInput{"[material]\nbending_rigidity = [1, 0]",
                  "case.toml:2:20: material.bending_rigidity = [ 1, 0 ]: must be > 0"},
+        BadInput{
+            "[constraints]\nreduced_volume = ['initial', 0.85, 0, 1]",
+            "case.toml:2:18: constraints.reduced_volume = [ 'initial', 0.85, 0, 1 ]: must be a "
+            "number"},
         BadInput{"[material]\nbending_rigidity = [1, 2, 3]",
                  "case.toml:2:20: material.bending_rigidity = [ 1, 2, 3 ]: must be a number, "
                  "[from, to, t0, t1], { times = [...], values = [...], kind = ... } or an array "
