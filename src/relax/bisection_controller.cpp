@@ -54,6 +54,10 @@ adapt::BisectionOptions BisectionController::marking() const {
   return {options_.n_in, options_.n_off, options_.n_kappa, options_.max_size * scales_.length};
 }
 
+BisectionPlan BisectionController::bisection(const StepView& view) const {
+  return {marking(), view.state.triangulation == first_mesh_};
+}
+
 std::vector<Request> BisectionController::ask(const StepView& view, MeshPlan plan,
                                               std::string reason) {
   last_change_ = view.report.counts.steps;
@@ -62,13 +66,12 @@ std::vector<Request> BisectionController::ask(const StepView& view, MeshPlan pla
 
 std::vector<Request> BisectionController::ask_for_bisection(const StepView& view,
                                                             std::string reason) {
-  const bool is_first = view.state.triangulation == first_mesh_;
-  return ask(view, BisectionPlan{marking(), is_first}, std::move(reason));
+  return ask(view, bisection(view), std::move(reason));
 }
 
 std::vector<Request> BisectionController::ask_for_image(const StepView& view, std::string reason) {
   is_new_image_ = true;
-  return ask(view, ConformalPlan{marking()}, std::move(reason));
+  return ask(view, ConformalPlan{bisection(view)}, std::move(reason));
 }
 
 bool BisectionController::has_low_quality(const StepView& view) const {

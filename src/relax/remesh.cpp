@@ -114,15 +114,23 @@ struct Mesher {
     return std::move(bisected.mesh);
   }
   std::optional<adapt::Remeshed> operator()(const ConformalPlan& plan) const {
-    return adapt::conformal_remesh(state.surface(), shape_operator_of(state),
-                                   phases_of(model, state), plan.marking, max_nodes);
+    auto image =
+        adapt::conformal_remesh(state.surface(), shape_operator_of(state), phases_of(model, state),
+                                plan.otherwise.marking, max_nodes);
+    if (image && is_usable(image->surface) &&
+        quality_of(image->surface) > quality_of(state.surface())) {
+      return image;
+    }
+    return (*this)(plan.otherwise);
   }
 };
 
 /// For the first bisection the state with its triangles turned; corners have no meaning otherwise.
 problem::State prepared(const problem::State& state, const MeshPlan& plan) {
   problem::State result = state;
-  const auto* bisection = std::get_if<BisectionPlan>(&plan);
+  const auto* conformal = std::get_if<ConformalPlan>(&plan);
+  const auto* bisection =
+      conformal != nullptr ? &conformal->otherwise : std::get_if<BisectionPlan>(&plan);
   if (bisection != nullptr && bisection->is_first)
     result.triangulation = adapt::with_longest_sides_first(state.surface()).triangulation;
   return result;
@@ -193,10 +201,6 @@ std::optional<problem::State> remeshed(const model::Model& model, const problem:
   const problem::State old = prepared(state, remesh.plan);
   const auto changed = std::visit(Mesher{model, old, remesh.max_nodes}, remesh.plan);
   if (!changed || !is_usable(changed->surface)) return std::nullopt;
-  if (std::holds_alternative<ConformalPlan>(remesh.plan) &&
-      quality_of(changed->surface) <= quality_of(old.surface())) {
-    return std::nullopt;
-  }
   problem::State result;
   result.time = old.time;
   result.damping = old.damping;

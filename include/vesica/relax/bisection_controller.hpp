@@ -15,7 +15,8 @@ namespace vesica::relax {
 /// Mesh changes of the paper, Sections 3.5 and 3.6. Every `every` steps one bisection of elements
 /// that are larger than wanted and one coarsening of those below half of that. With method
 /// conformal the conformal image of a sphere mesh instead, when the quality (3.5) is below
-/// `conformal_quality` and below 0.75 of what the last image had.
+/// `conformal_quality` and below 0.75 of what it was after the last one was asked for; where the
+/// image is no better, the bisection.
 ///
 /// Without waiting: after failed steps, 5 times at most, an image (conformal) or a bisection; and
 /// before the run ends in an equilibrium, 10 times at most, a bisection as long as elements are
@@ -31,6 +32,7 @@ class BisectionController final : public Controller {
 
  private:
   [[nodiscard]] adapt::BisectionOptions marking() const;
+  [[nodiscard]] BisectionPlan bisection(const StepView& view) const;
   [[nodiscard]] std::vector<Request> ask(const StepView& view, MeshPlan plan, std::string reason);
   [[nodiscard]] std::vector<Request> ask_for_bisection(const StepView& view, std::string reason);
   [[nodiscard]] std::vector<Request> ask_for_image(const StepView& view, std::string reason);

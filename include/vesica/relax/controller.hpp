@@ -28,9 +28,10 @@ struct BisectionPlan {
   bool is_first = false;  ///< the present mesh was not made by bisection
 };
 
-/// The conformal image of a sphere mesh, adapt::conformal_remesh.
+/// The conformal image of a sphere mesh, adapt::conformal_remesh; where its quality is no better
+/// than that of the present mesh, the bisection.
 struct ConformalPlan {
-  adapt::BisectionOptions marking;
+  BisectionPlan otherwise;
 };
 
 /// How a new mesh is made; sizes stand for adapt::local_remesh.

@@ -161,9 +161,14 @@ TEST_F(BisectionPlanTest, KeepsFieldsAndIntegrals) {
 }
 
 TEST_F(BisectionPlanTest, TakesAConformalImageOnlyWhenItIsBetter) {
-  EXPECT_FALSE(remeshed_with(ConformalPlan{marking_}).has_value());
+  const BisectionPlan bisection{marking_, true};
+  const auto changed = remeshed_with(ConformalPlan{bisection});
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_EQ(changed->values.positions, remeshed_with(bisection)->values.positions);
   twist();
-  expect_to_keep_fields(ConformalPlan{marking_}, 2e-2);
+  expect_to_keep_fields(ConformalPlan{bisection}, 2e-2);
+  EXPECT_NE(remeshed_with(ConformalPlan{bisection})->values.positions.rows(),
+            remeshed_with(bisection)->values.positions.rows());
 }
 
 TEST_F(BisectionPlanTest, LeavesAMeshThatFitsAlone) {
