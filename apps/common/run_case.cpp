@@ -29,7 +29,7 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
   const auto style =
       ::isatty(STDOUT_FILENO) != 0 ? io::ProgressStyle::rewriting : io::ProgressStyle::sparse;
   io::Progress progress(std::cout, is_quiet ? io::ProgressStyle::none : style);
-  io::TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
+  io::TrajectoryWriter trajectory(config.output.directory, config, vesicle);
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
   const auto mesh = relax::make_mesh_controller(config.adaption, vesicle.model, scales);

@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "vesica/core/error.hpp"
-#include "vesica/mesh/quality.hpp"
-#include "vesica/model/make_model.hpp"
 #include "vesica/problem/diagnostics.hpp"
+#include "vesica/problem/scales.hpp"
 
 namespace vesica::io {
 namespace {
@@ -63,14 +62,49 @@ Indefiniteness most_indefinite(const model::Model& model) {
   return worst;
 }
 
-std::vector<std::string> warnings_of(const model::Model& model, const mesh::Surface& surface) {
+/// Between two corners of an element that is not in one pure phase.
+double longest_edge_in_interface(const problem::State& state) {
+  constexpr double pure = 0.9;
+  double longest = 0;
+  for (const mesh::QuadraticTriangle& triangle : state.triangulation->triangles()) {
+    const Eigen::Vector3d c = state.values.order_parameter({triangle[0], triangle[1], triangle[2]});
+    if (c.minCoeff() > pure || c.maxCoeff() < -pure) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto side = state.values.positions.row(triangle[i]) -
+                        state.values.positions.row(triangle[(i + 1) % 3]);
+      longest = std::max(longest, side.norm());
+    }
+  }
+  return longest;
+}
+
+/// The threshold is a velocity in the units of the case.
+void warn_of_units(const RunConfig& config, const Case& vesicle,
+                   std::vector<std::string>& warnings) {
+  constexpr double usual = 1e-3;
+  constexpr double unusual = 100;  // times more or less
+  const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
+  const double unit = scales.length / scales.time();
+  const double excess = config.stop.normal_velocity / (usual * unit);
+  if (config.solver.method == solve::Method::minimize) return;
+  if (excess < unusual && excess > 1 / unusual) return;
+  warnings.push_back(
+      fmt::format("stop.normal_velocity = {:g} is {:.1e} k/R_c^3 of this case, so the run may {}: "
+                  "{:.1e} would be usual",
+                  config.stop.normal_velocity, config.stop.normal_velocity / unit,
+                  excess > 1 ? "end far from rest" : "never be at rest", usual * unit));
+}
+
+std::vector<std::string> warnings_of(const RunConfig& config, const Case& vesicle) {
+  const model::Model& model = vesicle.model;
   std::vector<std::string> warnings;
+  warn_of_units(config, vesicle, warnings);
   if (!model.is_two_phase) return warnings;
-  const double width = model.material.interface_width.value(0);
-  const double edge = mesh::longest_edge(*surface.triangulation, surface.positions);
-  if (edge > width) {
+  const double width = model.material.interface_width.value(vesicle.start.time);
+  const double edge = longest_edge_in_interface(vesicle.start);
+  if (edge > width && !config.adaption.enabled) {
     warnings.push_back(
-        fmt::format("the mesh does not resolve the phase interface: longest edge {:.4g} > "
+        fmt::format("the mesh does not resolve the phase interface: an edge of {:.4g} in it > "
                     "material.interface_width = {:.4g}",
                     edge, width));
   }
@@ -105,9 +139,10 @@ bool stays_near(const model::Schedule& target, double value) {
 /// On a sphere the variations of volume and area, 1 and -kappa, are parallel: the two targets are
 /// one. Where the start meets them the area is left free, with a warning; no flow could change one
 /// of them alone.
-void untie_sphere(Case& vesicle, const model::Measures& start) {
+void untie_sphere(Case& vesicle) {
   model::Targets& targets = vesicle.model.targets;
-  if (!targets.volume || !targets.area || !is_sphere(vesicle.start.values.positions)) return;
+  const auto& [start, is_sphere] = vesicle.origin;
+  if (!targets.volume || !targets.area || !is_sphere) return;
   if (!stays_near(*targets.volume, start.volume) || !stays_near(*targets.area, start.area)) {
     throw ConfigError(
         "constraints.volume and constraints.area: cannot be met from a sphere, which moves them "
@@ -160,14 +195,14 @@ void check_topology(const RunConfig& config, const mesh::Triangulation& triangul
 
 }  // namespace
 
-Case case_of(const RunConfig& config, problem::State start) {
+Case case_of(const RunConfig& config, problem::State start, const std::optional<Origin>& origin) {
   check_topology(config, *start.triangulation);
-  const model::Measures measures = measures_of(start);
   Case vesicle;
-  vesicle.model = model_of(config, measures);
+  vesicle.origin = origin ? *origin : Origin{measures_of(start), is_sphere(start.values.positions)};
+  vesicle.model = model_of(config, vesicle.origin.measures);
   vesicle.start = std::move(start);
-  vesicle.warnings = warnings_of(vesicle.model, vesicle.start.surface());
-  untie_sphere(vesicle, measures);
+  vesicle.warnings = warnings_of(config, vesicle);
+  untie_sphere(vesicle);
   return vesicle;
 }
 

@@ -37,7 +37,6 @@ class FrameReader {
   explicit FrameReader(const hdf5::ReadableFile& file) : file_(file) {
     if (file.count("/frames") == 0) file.refuse("/frames", "is empty");
   }
-  [[nodiscard]] problem::State first() const { return frame(0); }
   [[nodiscard]] problem::State last() const { return frame(file_.count("/frames") - 1); }
 
  private:
@@ -89,6 +88,14 @@ class FrameReader {
 
   const hdf5::ReadableFile& file_;
 };
+
+Origin origin_of(const hdf5::ReadableFile& file) {
+  const std::string group = "/origin";
+  if (!file.has(group)) file.refuse(group, "is missing: an older version wrote the file");
+  return {{file.number_attribute(group, "volume"), file.number_attribute(group, "area"),
+           file.find_attribute(group, "phase_difference")},
+          file.number_attribute(group, "is_sphere") != 0};
+}
 
 problem::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
   return {json.optional_number(object + "/volume"), json.optional_number(object + "/area"),
@@ -242,8 +249,8 @@ FinishedRun read_run(const fs::path& folder) {
   run.config = read_config((folder / "case.toml").string(), {});
   const hdf5::ReadableFile file(folder / "trajectory.h5");
   const FrameReader frames(file);
-  run.model = case_of(run.config, frames.first()).model;
   run.state = frames.last();
+  run.model = case_of(run.config, run.state, origin_of(file)).model;
   run.verdict = read_verdict(folder / "verdict.json");
   if (run.verdict.num_nodes != run.state.triangulation->num_nodes())
     file.refuse("/frames", "and verdict.json differ in the number of nodes");
@@ -257,15 +264,13 @@ Case resumed_case(const RunConfig& config, const fs::path& folder) {
   check_has_ended(folder);
   const hdf5::ReadableFile file(folder / "trajectory.h5");
   const FrameReader frames(file);
-  problem::State first = frames.first();
-  if (first.is_two_phase() != config.phase.has_value()) {
+  problem::State last = frames.last();
+  if (last.is_two_phase() != config.phase.has_value()) {
     throw ConfigError(fmt::format("{}: the run has {} phase field, the case has {}",
                                   folder.string(), config.phase ? "no" : "a",
                                   config.phase ? "one" : "none"));
   }
-  Case vesicle = case_of(config, std::move(first));
-  vesicle.start = frames.last();
-  return vesicle;
+  return case_of(config, std::move(last), origin_of(file));
 }
 
 }  // namespace vesica::io

@@ -64,11 +64,12 @@ class AttributeWriter {
 }  // namespace
 
 TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
-                               const model::Model& model)
-    : file_(path), model_(model) {
+                               const Case& vesicle)
+    : file_(path), model_(vesicle.model) {
   for (const char* group : {"/meshes", "/frames", "/series", "/domains", "/events"})
     file_.make_group(group);
   write_configuration(config);
+  write_origin(vesicle.origin);
   write_versions();
 }
 
@@ -89,6 +90,16 @@ void TrajectoryFile::write_configuration(const RunConfig& config) {
                         Options::fields(options, AttributeWriter(file_, group));
                       }
                     });
+}
+
+void TrajectoryFile::write_origin(const Origin& origin) {
+  const std::string group = "/origin";
+  file_.make_group(group);
+  file_.set_attribute(group, "volume", origin.measures.volume);
+  file_.set_attribute(group, "area", origin.measures.area);
+  if (origin.measures.phase_difference)
+    file_.set_attribute(group, "phase_difference", *origin.measures.phase_difference);
+  file_.set_attribute(group, "is_sphere", static_cast<std::int64_t>(origin.is_sphere));
 }
 
 void TrajectoryFile::write_versions() {

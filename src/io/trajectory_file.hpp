@@ -7,6 +7,7 @@
 
 #include "io/hdf5.hpp"
 #include "io/xdmf.hpp"
+#include "vesica/io/case.hpp"
 #include "vesica/io/config.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/relax/observer.hpp"
@@ -16,9 +17,8 @@ namespace vesica::io {
 /// The groups of `trajectory.h5` (docs/output.md) and how they grow.
 class TrajectoryFile {
  public:
-  /// Makes the file with `/configuration` and `/versions`.
-  TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
-                 const model::Model& model);
+  /// Makes the file with `/configuration`, `/origin` and `/versions`.
+  TrajectoryFile(const std::filesystem::path& path, const RunConfig& config, const Case& vesicle);
 
   /// Kept until the next flush.
   void add_row(const relax::StepView& view);
@@ -36,6 +36,7 @@ class TrajectoryFile {
 
  private:
   void write_configuration(const RunConfig& config);
+  void write_origin(const Origin& origin);
   void write_versions();
   void write_domains(const problem::Diagnostics& diagnostics);
   void write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation);

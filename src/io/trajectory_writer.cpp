@@ -25,11 +25,11 @@ constexpr std::string_view final_xdmf_name = "trajectory.xdmf";
 
 class TrajectoryWriter::Writer {
  public:
-  Writer(fs::path folder, const RunConfig& config, const model::Model& model)
+  Writer(fs::path folder, const RunConfig& config, const Case& vesicle)
       : folder_(std::move(folder)),
         lock_(folder_),
         output_(config.output),
-        file_(folder_ / part_name, config, model) {}
+        file_(folder_ / part_name, config, vesicle) {}
 
   void observe(const relax::StepView& view) {
     file_.add_row(view);
@@ -91,9 +91,8 @@ class TrajectoryWriter::Writer {
   long last_frame_step_ = -1;
 };
 
-TrajectoryWriter::TrajectoryWriter(fs::path folder, const RunConfig& config,
-                                   const model::Model& model)
-    : writer_(std::make_unique<Writer>(std::move(folder), config, model)) {}
+TrajectoryWriter::TrajectoryWriter(fs::path folder, const RunConfig& config, const Case& vesicle)
+    : writer_(std::make_unique<Writer>(std::move(folder), config, vesicle)) {}
 
 TrajectoryWriter::~TrajectoryWriter() = default;
 
@@ -140,7 +139,7 @@ relax::Outcome record_failed_start(const RunConfig& config, const Case& vesicle,
   outcome.initial_quality = outcome.diagnostics.quality;
   outcome.smallest_quality = outcome.diagnostics.quality;
   create_run_folder(config.output.directory);
-  TrajectoryWriter trajectory(config.output.directory, config, vesicle.model);
+  TrajectoryWriter trajectory(config.output.directory, config, vesicle);
   trajectory.finish({vesicle.start, outcome.report, outcome.diagnostics}, outcome);
   return outcome;
 }

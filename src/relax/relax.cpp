@@ -235,7 +235,7 @@ class Run {
     return Stop{
         RunStatus::converged,
         fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met{}",
-                    diagnostics_.velocity.normal_rigid_free, stop_.normal_velocity, trouble)};
+                    Stationarity::normal_velocity(diagnostics_), stop_.normal_velocity, trouble)};
   }
 
   Outcome conclude(const Stop& end) {

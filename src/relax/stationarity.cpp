@@ -48,8 +48,11 @@ void Stationarity::forget_steps() {
 
 bool Stationarity::meets_velocity(const StepView& view) const {
   if (view.report.gradient) return *view.report.gradient < options_.gradient;
-  return view.diagnostics.velocity.normal_rigid_free <
-         options_.normal_velocity * characteristic_radius(view.diagnostics);
+  return normal_velocity(view.diagnostics) < options_.normal_velocity;
+}
+
+double Stationarity::normal_velocity(const problem::Diagnostics& diagnostics) {
+  return diagnostics.velocity.normal_rigid_free / characteristic_radius(diagnostics);
 }
 
 bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) const {

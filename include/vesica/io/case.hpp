@@ -1,19 +1,28 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vesica/io/config.hpp"
+#include "vesica/model/make_model.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::io {
+
+/// What "initial" stands for. A run that goes on with another keeps the origin of that one.
+struct Origin {
+  model::Measures measures;
+  bool is_sphere = false;  ///< then volume and area are one constraint
+};
 
 /// A run ready to be computed.
 struct Case {
   model::Model model;
   problem::State
       start;  ///< positions and order parameter; curvature, rates and multipliers are zero
+  Origin origin;
   std::vector<std::string> warnings;  ///< legal input that probably is not meant, one sentence each
 };
 
@@ -23,7 +32,8 @@ struct Case {
 [[nodiscard]] Case make_case(const RunConfig& config);
 
 /// The same with a start that is there already: positions and, for two phases, order parameter.
-/// Throws ConfigError.
-[[nodiscard]] Case case_of(const RunConfig& config, problem::State start);
+/// Without `origin` it is its own. Throws ConfigError.
+[[nodiscard]] Case case_of(const RunConfig& config, problem::State start,
+                           const std::optional<Origin>& origin = {});
 
 }  // namespace vesica::io

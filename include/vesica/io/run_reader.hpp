@@ -32,7 +32,7 @@ struct FinishedRun {
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
 
 /// The case of `config` with the final state of the run in `folder` as its start, rates and
-/// multipliers included; time goes on. Targets that begin at "initial" begin where that run began.
+/// multipliers included; time goes on. "initial" is the start of the first run of such a chain.
 /// Throws what read_run throws, and ConfigError when one has a phase field and the other not.
 [[nodiscard]] Case resumed_case(const RunConfig& config, const std::filesystem::path& folder);
 

@@ -6,7 +6,6 @@
 
 #include "vesica/io/case.hpp"
 #include "vesica/io/config.hpp"
-#include "vesica/model/model.hpp"
 #include "vesica/relax/observer.hpp"
 
 namespace vesica::io {
@@ -19,8 +18,7 @@ class TrajectoryWriter final : public relax::Observer {
  public:
   /// Makes `trajectory.part.h5` in `folder`, which exists, and holds its FolderLock. Throws
   /// IoError, and ConfigError when a run is writing there.
-  TrajectoryWriter(std::filesystem::path folder, const RunConfig& config,
-                   const model::Model& model);
+  TrajectoryWriter(std::filesystem::path folder, const RunConfig& config, const Case& vesicle);
   ~TrajectoryWriter() override;
 
   /// A row of the time series; a frame for step 0 and every `output.every_steps` steps. Throws

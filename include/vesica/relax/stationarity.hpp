@@ -25,7 +25,9 @@ struct StopOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     visit(Field{"normal_velocity", "length/time",
-                "converged below it: ||v_nu|| / R_c, rigid motion removed", Rule::positive},
+                "converged below it: ||v_nu|| / R_c, rigid motion removed; in the units of the "
+                "case, 1e-3 k/R_c^3 is usual",
+                Rule::positive},
           self.normal_velocity);
     visit(Field{"constraint", "-", "converged below it: relative errors of the constraints",
                 Rule::positive},
@@ -70,6 +72,8 @@ class Stationarity {
   [[nodiscard]] bool is_at_rest(const StepView& view);
   /// After a change of the mesh: the multipliers have to rest anew.
   void forget_steps();
+  /// ||v_nu|| / R_c, best-fit rigid motion removed [length/time].
+  [[nodiscard]] static double normal_velocity(const problem::Diagnostics& diagnostics);
   /// Velocity, or for a method that reports it the distance to the minimum.
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
   [[nodiscard]] bool meets_constraints(const problem::Diagnostics& diagnostics) const;

@@ -35,7 +35,7 @@ Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int sign
   outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
   outcome.events = {{3, 0.5, "domains of phase 1: 1 -> 2"}};
   const problem::Diagnostics measured = fake_diagnostics();
-  TrajectoryWriter writer(folder, config, {});
+  TrajectoryWriter writer(folder, config, case_of(config, fake_state()));
   for (long step = 0; step <= 12; ++step) {
     report = fake_report(step);
     state.time = 0.125 * static_cast<double>(step);
@@ -75,6 +75,21 @@ TEST(RunReader, ReadsTheFinalStateBack) {
   EXPECT_EQ(run.state.values.multipliers.volume, 27.5);
   EXPECT_EQ(run.state.values.multipliers.area, -9.25);
   EXPECT_EQ(run.state.values.multipliers.phase, std::nullopt);
+}
+
+TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
+  const test::TemporaryFolder folder;
+  write_fake_run(folder.path(), relax::RunStatus::interrupted, SIGINT);
+  RunConfig config;
+  config.phase.emplace();
+  const Case resumed = resumed_case(config, folder.path());
+  const Origin expected = case_of(config, fake_state()).origin;
+  EXPECT_EQ(resumed.origin.measures.volume, expected.measures.volume);
+  EXPECT_EQ(resumed.origin.measures.area, expected.measures.area);
+  EXPECT_EQ(resumed.origin.measures.phase_difference, expected.measures.phase_difference);
+  EXPECT_EQ(resumed.origin.is_sphere, expected.is_sphere);
+  EXPECT_EQ(resumed.model.targets.volume->last(), expected.measures.volume);
+  EXPECT_EQ(resumed.start.time, 1.5);
 }
 
 TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {

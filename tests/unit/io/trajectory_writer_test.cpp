@@ -269,7 +269,7 @@ TEST(TrajectoryWriter, ASinglePhaseRunCarriesNoOrderParameter) {
   run.state.rates.order_parameter.resize(0);
   model::Model model;
   model.is_two_phase = false;
-  TrajectoryWriter writer(folder.path(), run.config, model);
+  TrajectoryWriter writer(folder.path(), run.config, {model, {}, {}, {}});
   run.observe(writer, 0);
   run.finish(writer);
   const ReadableFile file(folder.path() / "trajectory.h5");

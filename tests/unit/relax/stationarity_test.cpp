@@ -32,6 +32,7 @@ class StationarityTest : public ControllerTest {
 TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdTimesTheRadius) {
   const Stationarity criterion(options_, model_);
   (void)view(1.9e-3, 0);
+  EXPECT_NEAR(Stationarity::normal_velocity(diagnostics_), 0.95e-3, 1e-15);
   EXPECT_TRUE(criterion.meets_velocity({state_, report_, diagnostics_}));
   (void)view(2.1e-3, 0);
   EXPECT_FALSE(criterion.meets_velocity({state_, report_, diagnostics_}));

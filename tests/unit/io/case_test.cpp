@@ -1,0 +1,56 @@
+#include "vesica/io/case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace vesica::io {
+namespace {
+
+/// One line each.
+std::string warnings_of(const RunConfig& config) {
+  std::string lines;
+  for (const std::string& warning : make_case(config).warnings) lines += warning + "\n";
+  return lines;
+}
+
+/// Of a two-phase ellipsoid of this length.
+std::string warnings_of(RunConfig config, double length) {
+  config.shape.kind = mesh::ShapeKind::ellipsoid;
+  config.shape.semi_axes = {1.4 * length, length, length};
+  config.shape.resolution = 4;
+  config.phase.emplace().kind = problem::PhaseKind::caps;
+  config.material.interface_width = model::Schedule(0.5 * length);
+  return warnings_of(config);
+}
+
+TEST(CaseWarnings, AreSilentAboutAUsualCase) { EXPECT_EQ(warnings_of({}, 1), ""); }
+
+/// R_c^3 = 1.4403 of the ellipsoid of length 1.
+TEST(CaseWarnings, TellWhatToSetWhereTheUnitsMakeTheThresholdOdd) {
+  EXPECT_NE(warnings_of({}, 1e-2).find("so the run may never be at rest: 6.9e+02 would be usual"),
+            std::string::npos)
+      << warnings_of({}, 1e-2);
+  EXPECT_NE(warnings_of({}, 1e2).find("so the run may end far from rest: 6.9e-10 would be usual"),
+            std::string::npos)
+      << warnings_of({}, 1e2);
+  RunConfig config;
+  config.stop.normal_velocity = 7e-10;
+  EXPECT_EQ(warnings_of(config, 1e2), "");
+  RunConfig minimisation;
+  minimisation.solver.method = solve::Method::minimize;
+  EXPECT_EQ(warnings_of(minimisation, 1e2), "");
+}
+
+TEST(CaseWarnings, TellWhereTheMeshDoesNotResolveTheInterfaceUnlessItAdapts) {
+  RunConfig config;
+  config.material.interface_width = model::Schedule(0.1);
+  config.phase.emplace().kind = problem::PhaseKind::caps;
+  EXPECT_NE(warnings_of(config).find("the mesh does not resolve the phase interface"),
+            std::string::npos);
+  config.adaption.enabled = true;
+  EXPECT_EQ(warnings_of(config), "");
+}
+
+}  // namespace
+}  // namespace vesica::io
