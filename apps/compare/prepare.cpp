@@ -18,8 +18,10 @@ PreparedComparison prepare(const Arguments& arguments) {
     result.folder =
         arguments.options.directory.empty() ? config.output.directory : arguments.options.directory;
     config.output.directory = (result.folder / column.name).string();
-    check_run(config, case_file, arguments.options.overwrites);
-    io::Case vesicle = io::make_case(config);
+    io::Case vesicle = io::with_places(config, [&] {
+      check_run(config, case_file, arguments.options.overwrites);
+      return io::make_case(config);
+    });
     result.runs.push_back({column.name, std::move(config), std::move(vesicle)});
   }
   io::check_comparison_folder(result.folder, arguments.options.overwrites);

@@ -13,8 +13,7 @@
 namespace vesica {
 namespace {
 
-int run(const Arguments& arguments) {
-  const io::RunConfig config = read_config(arguments);
+int run(const io::RunConfig& config, const Arguments& arguments) {
   check_run(config, arguments.case_file, arguments.options.overwrites);
   const io::Case vesicle = arguments.resumed.empty() ? io::make_case(config)
                                                      : io::resumed_case(config, arguments.resumed);
@@ -25,6 +24,8 @@ int run(const Arguments& arguments) {
   if (!arguments.options.is_quiet) {
     io::print_verdict(std::cout, verdict);
     io::print_files(std::cout, config);
+  } else if (verdict.outcome.status == relax::RunStatus::numerical_failure) {
+    std::cerr << "vesica-relax: numerical failure: " << verdict.outcome.reason << '\n';
   }
   return io::exit_status(verdict.outcome);
 }
@@ -37,6 +38,8 @@ int main(int argc, char** argv) {
   admit_signals();
   return guarded("vesica-relax", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
-    return command_line.arguments ? run(*command_line.arguments) : command_line.status;
+    if (!command_line.arguments) return command_line.status;
+    const io::RunConfig config = read_config(*command_line.arguments);
+    return io::with_places(config, [&] { return run(config, *command_line.arguments); });
   });
 }

@@ -102,6 +102,18 @@ class ConfigReader {
   std::vector<std::string> known_;
 };
 
+std::map<std::string, std::string> places_of(const CaseDocument& document) {
+  std::map<std::string, std::string> places;
+  for (const auto& [name, table] : document.root()) {
+    if (!table.is_table()) continue;
+    for (const auto& [key, value] : *table.as_table()) {
+      const std::string path = fmt::format("{}.{}", name.str(), key.str());
+      places[path] = document.place(path, value.source());
+    }
+  }
+  return places;
+}
+
 const toml::node* find(const CaseDocument& document, std::string_view table, std::string_view key) {
   const toml::table* found = document.root()[table].as_table();
   return found == nullptr ? nullptr : found->get(key);
@@ -218,16 +230,23 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
   RunConfig::tables(config, reader);
   reader.refuse_unknown_tables();
   check_rules_between_options(document, config);
+  config.places = places_of(document);
   return config;
+}
+
+std::string placed(const RunConfig& config, std::string_view message) {
+  const auto found =
+      config.places.find(std::string(message.substr(0, message.find_first_of(" :"))));
+  if (found == config.places.end()) return std::string(message);
+  return fmt::format("{}: {}", found->second, message);
 }
 
 RunConfig read_config(const std::string& path, std::span<const std::string> overrides) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf())) {
-    throw ConfigError(
-        fmt::format("{}: cannot be read ({})", path,
-                    errno == 0 ? "empty file" : std::generic_category().message(errno)));
+    throw IoError(fmt::format("{}: cannot be read ({})", path,
+                              errno == 0 ? "empty file" : std::generic_category().message(errno)));
   }
   return read_config_text(std::move(text).str(), path, overrides);
 }

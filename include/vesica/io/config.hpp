@@ -2,12 +2,14 @@
 
 #include <array>
 #include <iosfwd>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "vesica/core/error.hpp"
 #include "vesica/core/fields.hpp"
 #include "vesica/mesh/shapes.hpp"
 #include "vesica/model/constraints.hpp"
@@ -60,6 +62,8 @@ struct RunConfig {
   relax::StopOptions stop;
   relax::AdaptionOptions adaption;
   OutputOptions output;
+  /// Where each "table.key" was written: "file:line:column", or the text of its override.
+  std::map<std::string, std::string> places;
 
   template <class Self, class Visitor>
   static void tables(Self& self, Visitor&& visit) {
@@ -78,15 +82,29 @@ struct RunConfig {
 
 /// Reads a case file and then `overrides`, each "table.key=value" with a TOML value; a bare word
 /// that is no TOML value counts as a string. Throws ConfigError, `file:line:column: table.key =
-/// value: rule`, for a file that is unreadable or no TOML, an unknown or repeated key, a wrong
-/// type, a value that breaks its rule. In messages about an override its text stands in place of
-/// file, line and column.
+/// value: rule`, for a file that is no TOML, an unknown or repeated key, a wrong type, a value that
+/// breaks its rule; IoError for a file that cannot be read. In messages about an override its text
+/// stands in place of file, line and column.
 [[nodiscard]] RunConfig read_config(const std::string& path,
                                     std::span<const std::string> overrides);
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] RunConfig read_config_text(std::string_view text, std::string_view name,
                                          std::span<const std::string> overrides);
+
+/// `message` with the place of the key, "table.key", that it begins with.
+[[nodiscard]] std::string placed(const RunConfig& config, std::string_view message);
+
+/// What `call` returns. A ConfigError about a key of the case tells where the key was written, also
+/// when it is thrown by a part of the library that knows nothing of case files.
+template <class Call>
+auto with_places(const RunConfig& config, const Call& call) {
+  try {
+    return call();
+  } catch (const ConfigError& error) {
+    throw ConfigError(placed(config, error.what()));
+  }
+}
 
 /// A case file with every table and option, its default, unit and meaning. Options are commented
 /// out (`#key = default`), so the file reads back as the default RunConfig.

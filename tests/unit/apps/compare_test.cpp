@@ -65,16 +65,18 @@ TEST_F(CompareTest, EndsWithTheWorstStatusOfItsRuns) {
 
 TEST_F(CompareTest, BadInputEndsWithStatusTwoBeforeAnythingIsWritten) {
   for (const std::string arguments :
-       {"", "a b c", "missing.toml", "prolate.toml --scheme one", "prolate.toml --set x",
+       {"", "a b c", "prolate.toml --scheme one", "prolate.toml --set x",
         "prolate.toml --set-minimize solver.method=none"}) {
     EXPECT_EQ(compare(arguments + " --out out"), 2) << arguments << "\n" << output_;
     EXPECT_FALSE(fs::exists(folder_ / "out")) << arguments;
   }
 }
 
-TEST_F(CompareTest, AMissingRunFolderEndsWithStatusFour) {
+TEST_F(CompareTest, AMissingFolderOrFileEndsWithStatusFour) {
   EXPECT_EQ(compare("nowhere neither"), 4);
   EXPECT_EQ(output_, "vesica-compare: nowhere: no such folder\n");
+  EXPECT_EQ(compare("missing.toml --out out"), 4);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 TEST_F(CompareTest, ASignalSavesTheRunAndEndsTheProgram) {

@@ -32,6 +32,46 @@ TEST_F(RelaxTest, GoesOnWithARunThatStoppedInTheMiddleOfARamp) {
   EXPECT_NEAR(verdict("second", "/energy/total"), verdict("whole", "/energy/total"), 1e-2);
 }
 
+/// "initial" is the start of the first run also in the third of a chain.
+TEST_F(RelaxTest, AChainOfRunsFollowsTheRampOfOneRun) {
+  ASSERT_EQ(relax("case.toml --set stop.end_time=0.01 --out first"), 1) << output_;
+  ASSERT_EQ(relax("case.toml --set stop.end_time=0.02 --resume first --out second"), 1) << output_;
+  ASSERT_EQ(relax("case.toml --set stop.end_time=0.03 --resume second --out third"), 1) << output_;
+  ASSERT_EQ(relax("case.toml --set stop.end_time=0.03 --out whole"), 1) << output_;
+  for (const std::string name : {"volume", "area"}) {
+    const auto target = [&](const std::string& run) {
+      return verdict(run, "/shape/" + name) / (1 + verdict(run, "/constraints/" + name));
+    };
+    EXPECT_NEAR(target("third"), target("whole"), 1e-12) << name;
+  }
+}
+
+TEST_F(RelaxTest, TellsWhereAValueWasWrittenThatDoesNotFitTheOthers) {
+  write("torus.toml", "[shape]\nkind = \"torus\"\nminor_radius = 1.5\n");
+  EXPECT_EQ(relax("torus.toml --out torus"), 2);
+  EXPECT_NE(output_.find("torus.toml:3:16: shape.minor_radius = 1.5: must be"), std::string::npos)
+      << output_;
+  EXPECT_EQ(relax("torus.toml --set shape.minor_radius=2 --out torus"), 2);
+  EXPECT_NE(output_.find("--set shape.minor_radius=2: shape.minor_radius = 2: must be"),
+            std::string::npos)
+      << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "torus"));
+}
+
+TEST_F(RelaxTest, EvenAQuietRunSaysThatItFailed) {
+  write("slender.toml", "[shape]\nkind = \"ellipsoid\"\nsemi_axes = [1.84, 0.66, 0.66]\n");
+  EXPECT_EQ(relax("slender.toml --set shape.resolution=4 --set solver.method=semi-implicit "
+                  "--set solver.time_step=10 --set damping.initial=1 --set stop.max_steps=20 "
+                  "--quiet --out run"),
+            3);
+  EXPECT_EQ(output_.find("vesica-relax: numerical failure: "), 0U) << output_;
+}
+
+TEST_F(RelaxTest, ACaseFileThatCannotBeReadIsAnErrorOfFiles) {
+  EXPECT_EQ(relax("none.toml --out run"), 4);
+  EXPECT_NE(output_.find("none.toml: cannot be read"), std::string::npos) << output_;
+}
+
 TEST_F(RelaxTest, RefusesToGoOnWithARunOfAnotherKind) {
   ASSERT_EQ(relax("case.toml --set stop.max_steps=1 --out first"), 1) << output_;
   EXPECT_EQ(relax("case.toml --set phase.kind=ramp --set phase.match_target=false --resume first "
