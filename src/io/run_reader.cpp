@@ -9,6 +9,7 @@
 #include "io/hdf5_reader.hpp"
 #include "io/json_reader.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/io/run_folder.hpp"
 
 namespace vesica::io {
 namespace {
@@ -27,6 +28,23 @@ void check_has_ended(const fs::path& folder) {
   }
 }
 
+/// A run that has ended or, where there is none, one that broke off.
+struct Resumable {
+  fs::path trajectory;
+  bool has_ended = true;
+};
+
+Resumable find_resumable(const fs::path& folder) {
+  const fs::path part = folder / "trajectory.part.h5";
+  std::error_code ignored;
+  if (fs::exists(folder / "trajectory.h5", ignored) || !fs::exists(part, ignored)) {
+    check_has_ended(folder);
+    return {folder / "trajectory.h5", true};
+  }
+  const FolderLock nobody_writes(folder);
+  return {part, false};
+}
+
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -37,9 +55,19 @@ class FrameReader {
   explicit FrameReader(const hdf5::ReadableFile& file) : file_(file) {
     if (file.count("/frames") == 0) file.refuse("/frames", "is empty");
   }
-  [[nodiscard]] problem::State last() const { return frame(file_.count("/frames") - 1); }
+  [[nodiscard]] problem::State last() const { return frame(num_frames() - 1); }
+  /// A run that broke off may have done so within its last frame.
+  [[nodiscard]] problem::State last_complete() const {
+    if (num_frames() == 1) return last();
+    try {
+      return last();
+    } catch (const IoError&) {
+      return frame(num_frames() - 2);
+    }
+  }
 
  private:
+  [[nodiscard]] std::size_t num_frames() const { return file_.count("/frames"); }
   [[nodiscard]] problem::State frame(std::size_t index) const {
     const std::string group = fmt::format("/frames/{:06}", index);
     problem::State state;
@@ -261,10 +289,10 @@ FinishedRun read_run(const fs::path& folder) {
 }
 
 Case resumed_case(const RunConfig& config, const fs::path& folder) {
-  check_has_ended(folder);
-  const hdf5::ReadableFile file(folder / "trajectory.h5");
+  const Resumable run = find_resumable(folder);
+  const hdf5::ReadableFile file(run.trajectory);
   const FrameReader frames(file);
-  problem::State last = frames.last();
+  problem::State last = run.has_ended ? frames.last() : frames.last_complete();
   if (last.is_two_phase() != config.phase.has_value()) {
     throw ConfigError(fmt::format("{}: the run has {} phase field, the case has {}",
                                   folder.string(), config.phase ? "no" : "a",

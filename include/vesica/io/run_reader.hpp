@@ -32,8 +32,10 @@ struct FinishedRun {
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
 
 /// The case of `config` with the final state of the run in `folder` as its start, rates and
-/// multipliers included; time goes on. "initial" is the start of the first run of such a chain.
-/// Throws what read_run throws, and ConfigError when one has a phase field and the other not.
+/// multipliers included; of a run that broke off (`trajectory.part.h5` alone) the last frame that
+/// is complete. Time goes on. "initial" is the start of the first run of such a chain. Throws what
+/// read_run throws, and ConfigError when a run is writing to the folder or when one has a phase
+/// field and the other not.
 [[nodiscard]] Case resumed_case(const RunConfig& config, const std::filesystem::path& folder);
 
 /// The energy history of a run that has ended. Throws IoError.

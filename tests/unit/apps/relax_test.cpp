@@ -46,6 +46,19 @@ TEST_F(RelaxTest, AChainOfRunsFollowsTheRampOfOneRun) {
   }
 }
 
+TEST_F(RelaxTest, GoesOnWithARunThatBrokeOff) {
+  const std::string slow =
+      "case.toml --set output.every_steps=1 --set stop.normal_velocity=1e-300 "
+      "--set stop.max_steps=100000 --set solver.max_step=1e-4 --out broken";
+  ASSERT_EQ(relax("--help > /dev/null; timeout --foreground --signal=KILL 4 '" +
+                  std::string(program_relax) + "' " + slow),
+            137)
+      << output_;
+  ASSERT_TRUE(fs::exists(folder_ / "broken" / "trajectory.part.h5"));
+  ASSERT_EQ(relax("case.toml --resume broken --out second"), 0) << output_;
+  EXPECT_NEAR(verdict("second", "/shape/volume"), 4.6, 1e-7);
+}
+
 TEST_F(RelaxTest, TellsWhereAValueWasWrittenThatDoesNotFitTheOthers) {
   write("torus.toml", "[shape]\nkind = \"torus\"\nminor_radius = 1.5\n");
   EXPECT_EQ(relax("torus.toml --out torus"), 2);
