@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/unused_options.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/scales.hpp"
@@ -97,7 +98,7 @@ void warn_of_units(const RunConfig& config, const Case& vesicle,
 
 std::vector<std::string> warnings_of(const RunConfig& config, const Case& vesicle) {
   const model::Model& model = vesicle.model;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = unused_options(config);
   warn_of_units(config, vesicle, warnings);
   if (!model.is_two_phase) return warnings;
   const double width = model.material.interface_width.value(vesicle.start.time);

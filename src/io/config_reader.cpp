@@ -7,6 +7,7 @@
 #include "io/case_document.hpp"
 #include "io/nearest_name.hpp"
 #include "io/option_values.hpp"
+#include "io/unused_options.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/config.hpp"
 
@@ -171,20 +172,6 @@ std::string_view moving_key(const Options& options) {
   return find_motion.key;
 }
 
-/// Names of the fields that differ from their defaults.
-std::vector<std::string> changed_keys(const relax::AdaptionOptions& options) {
-  const relax::AdaptionOptions defaults;
-  std::vector<std::string> texts;
-  relax::AdaptionOptions::fields(
-      defaults, [&](const Field&, const auto& value) { texts.push_back(toml_text(value)); });
-  std::vector<std::string> keys;
-  std::size_t i = 0;
-  relax::AdaptionOptions::fields(options, [&](const Field& field, const auto& value) {
-    if (toml_text(value) != texts[i++]) keys.emplace_back(field.name);
-  });
-  return keys;
-}
-
 void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
   const auto refuse = [&document](std::string_view table, std::string_view key,
                                   std::string_view rule) {
@@ -207,9 +194,9 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     if (!material.empty()) refuse("material", material, rule);
     if (!target.empty()) refuse("constraints", target, rule);
   }
-  for (const std::string& key : changed_keys(config.adaption)) {
-    if (!relax::belongs_to(config.adaption.method, key)) {
-      refuse("adaption", key,
+  for (const Field& field : changed_fields(config.adaption)) {
+    if (!relax::belongs_to(config.adaption.method, field.name)) {
+      refuse("adaption", field.name,
              fmt::format("means nothing with adaption.method = \"{}\"",
                          name_of(config.adaption.method)));
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 namespace vesica::io {
@@ -40,6 +41,31 @@ TEST(CaseWarnings, TellWhatToSetWhereTheUnitsMakeTheThresholdOdd) {
   RunConfig minimisation;
   minimisation.solver.method = solve::Method::minimize;
   EXPECT_EQ(warnings_of(minimisation, 1e2), "");
+}
+
+TEST(CaseWarnings, NameOptionsOfAnotherKind) {
+  RunConfig config;
+  config.shape.kind = mesh::ShapeKind::capsule;
+  config.shape.resolution = 4;
+  config.shape.length = 3;
+  config.shape.radius = 2;
+  config.shape.number_of_tips = 4;
+  EXPECT_EQ(warnings_of(config),
+            "shape.radius means nothing with shape.kind = \"capsule\"\n"
+            "shape.number_of_tips means nothing with shape.kind = \"capsule\"\n");
+  config = {};
+  config.phase.emplace().kind = problem::PhaseKind::caps;
+  config.phase->axis = problem::Axis::y;
+  config.phase->fraction = 0.4;
+  config.phase->seed = 7;
+  EXPECT_EQ(warnings_of(config), "phase.seed means nothing with phase.kind = \"caps\"\n");
+}
+
+TEST(CaseWarnings, AreSilentAboutTheOptionsOfTheCasesOfThePaper) {
+  for (const auto& file : std::filesystem::directory_iterator(VESICA_CASES_DIR)) {
+    const RunConfig config = read_config(file.path().string(), {});
+    EXPECT_EQ(warnings_of(config).find("means nothing"), std::string::npos) << file.path();
+  }
 }
 
 TEST(CaseWarnings, TellWhereTheMeshDoesNotResolveTheInterfaceUnlessItAdapts) {
