@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/unused_options.hpp"
+#include "vesica/adapt/bisection.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/scales.hpp"
@@ -63,47 +64,55 @@ Indefiniteness most_indefinite(const model::Model& model) {
   return worst;
 }
 
-/// Between two corners of an element that is not in one pure phase.
+/// Of the elements that are not in one pure phase.
 double longest_edge_in_interface(const problem::State& state) {
   constexpr double pure = 0.9;
+  const Eigen::VectorXd edges = adapt::diameters(state.surface());
   double longest = 0;
-  for (const mesh::QuadraticTriangle& triangle : state.triangulation->triangles()) {
-    const Eigen::Vector3d c = state.values.order_parameter({triangle[0], triangle[1], triangle[2]});
-    if (c.minCoeff() > pure || c.maxCoeff() < -pure) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto side = state.values.positions.row(triangle[i]) -
-                        state.values.positions.row(triangle[(i + 1) % 3]);
-      longest = std::max(longest, side.norm());
-    }
+  Eigen::Index t = 0;
+  for (const mesh::QuadraticTriangle& nodes : state.triangulation->triangles()) {
+    const Eigen::Vector3d c = state.values.order_parameter({nodes[0], nodes[1], nodes[2]});
+    const double edge = edges[t++];
+    if (c.minCoeff() <= pure && c.maxCoeff() >= -pure) longest = std::max(longest, edge);
   }
   return longest;
 }
 
-/// The threshold is a velocity in the units of the case.
-void warn_of_units(const RunConfig& config, const Case& vesicle,
-                   std::vector<std::string>& warnings) {
+/// The threshold is a velocity in the units of the case; minimisation has none.
+std::optional<std::string> warning_of_units(const RunConfig& config, const Case& vesicle) {
   constexpr double usual = 1e-3;
   constexpr double unusual = 100;  // times more or less
+  if (config.solver.method == solve::Method::minimize) return std::nullopt;
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   const double unit = scales.length / scales.time();
   const double excess = config.stop.normal_velocity / (usual * unit);
-  if (config.solver.method == solve::Method::minimize) return;
-  if (excess < unusual && excess > 1 / unusual) return;
-  warnings.push_back(
-      fmt::format("stop.normal_velocity = {:g} is {:.1e} k/R_c^3 of this case, so the run may {}: "
-                  "{:.1e} would be usual",
-                  config.stop.normal_velocity, config.stop.normal_velocity / unit,
-                  excess > 1 ? "end far from rest" : "never be at rest", usual * unit));
+  if (excess < unusual && excess > 1 / unusual) return std::nullopt;
+  return fmt::format(
+      "stop.normal_velocity = {:g} is {:.1e} k/R_c^3 of this case, so the run may {}: {:.1e} would "
+      "be usual",
+      config.stop.normal_velocity, config.stop.normal_velocity / unit,
+      excess > 1 ? "end far from rest" : "never be at rest", usual * unit);
+}
+
+template <class Options>
+void warn_of_unused(std::string_view table, const Options& options,
+                    std::vector<std::string>& warnings) {
+  for (const Field& field : unused_fields(options, options.kind)) {
+    warnings.push_back(fmt::format("{0}.{1} means nothing with {0}.kind = \"{2}\"", table,
+                                   field.name, name_of(options.kind)));
+  }
 }
 
 std::vector<std::string> warnings_of(const RunConfig& config, const Case& vesicle) {
   const model::Model& model = vesicle.model;
-  std::vector<std::string> warnings = unused_options(config);
-  warn_of_units(config, vesicle, warnings);
+  std::vector<std::string> warnings;
+  warn_of_unused("shape", config.shape, warnings);
+  if (config.phase) warn_of_unused("phase", *config.phase, warnings);
+  if (auto warning = warning_of_units(config, vesicle)) warnings.push_back(std::move(*warning));
   if (!model.is_two_phase) return warnings;
   const double width = model.material.interface_width.value(vesicle.start.time);
-  const double edge = longest_edge_in_interface(vesicle.start);
-  if (edge > width && !config.adaption.enabled) {
+  const double edge = config.adaption.enabled ? 0 : longest_edge_in_interface(vesicle.start);
+  if (edge > width) {
     warnings.push_back(
         fmt::format("the mesh does not resolve the phase interface: an edge of {:.4g} in it > "
                     "material.interface_width = {:.4g}",

@@ -194,12 +194,10 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     if (!material.empty()) refuse("material", material, rule);
     if (!target.empty()) refuse("constraints", target, rule);
   }
-  for (const Field& field : changed_fields(config.adaption)) {
-    if (!relax::belongs_to(config.adaption.method, field.name)) {
-      refuse("adaption", field.name,
-             fmt::format("means nothing with adaption.method = \"{}\"",
-                         name_of(config.adaption.method)));
-    }
+  for (const Field& field : unused_fields(config.adaption, config.adaption.method)) {
+    refuse("adaption", field.name,
+           fmt::format("means nothing with adaption.method = \"{}\"",
+                       name_of(config.adaption.method)));
   }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
 }

@@ -22,23 +22,7 @@ constexpr double slow = 0.03;  // velocities in natural units
 constexpr double moving = 0.3;
 constexpr int max_changes_after_failures = 5;
 
-constexpr std::array<std::string_view, 5> local_keys = {"curvature_angle", "interface_size",
-                                                        "final_curvature_angle",
-                                                        "final_interface_size", "min_steps"};
-constexpr std::array<std::string_view, 4> bisection_keys = {"n_in", "n_off", "n_kappa", "every"};
-
-template <std::size_t n>
-bool has(const std::array<std::string_view, n>& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
 }  // namespace
-
-bool belongs_to(MeshMethod method, std::string_view key) {
-  if (has(local_keys, key)) return method == MeshMethod::local;
-  if (has(bisection_keys, key)) return method != MeshMethod::local;
-  return key != "conformal_quality" || method == MeshMethod::conformal;
-}
 
 MeshController::MeshController(const AdaptionOptions& options, model::Model model,
                                const problem::Scales& scales)

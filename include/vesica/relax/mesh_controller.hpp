@@ -33,8 +33,7 @@ struct EnumNames<relax::MeshMethod> {
 namespace vesica::relax {
 
 /// Changes of the mesh during a run; sizes as in adapt::SizeFieldOptions and
-/// adapt::BisectionOptions. Each method reads its own keys (see `belongs_to`), `max_size` and
-/// `max_nodes`.
+/// adapt::BisectionOptions. Each method reads its own keys, `max_size` and `max_nodes`.
 struct AdaptionOptions {
   bool enabled = false;
   MeshMethod method = MeshMethod::local;
@@ -104,9 +103,6 @@ struct AdaptionOptions {
           self.conformal_quality);
   }
 };
-
-/// Whether a key of [adaption] means something for a method.
-[[nodiscard]] bool belongs_to(MeshMethod method, std::string_view key);
 
 /// Asks for a new mesh when the present one no longer fits. With L the wanted size of edges, coarse
 /// while the vesicle moves and fine near the equilibrium, at least min_steps after the last change:

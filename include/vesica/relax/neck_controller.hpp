@@ -11,9 +11,9 @@
 
 namespace vesica::relax {
 
-/// Ends a run in which a neck closes: the surface is about to change its
-/// topology, which no step can follow. With the length w = interface width, 0.2 R_c for a single
-/// phase, and the radius r = length / 2 pi of the shortest neck (mesh::find_neck):
+/// Ends a run in which a neck closes: the surface is about to change its topology, which no step
+/// can follow. With the length w = interface width, 0.2 R_c for a single phase, and the radius r =
+/// length / 2 pi of the shortest neck (mesh::find_neck):
 ///
 ///     r < 0.15 w, or
 ///     r < 0.25 w when a step fails, a limit is hit, or after 100 steps in a row,
