@@ -221,7 +221,7 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
 
 std::string placed(const RunConfig& config, std::string_view message) {
   const auto found =
-      config.places.find(std::string(message.substr(0, message.find_first_of(" :"))));
+      config.places.find(std::string(message.substr(0, message.find_first_of(" :["))));
   if (found == config.places.end()) return std::string(message);
   return fmt::format("{}: {}", found->second, message);
 }

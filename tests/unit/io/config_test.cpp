@@ -214,6 +214,15 @@ TEST(Config, ARepeatedKeyIsRefusedWithItsPlace) {
   EXPECT_NE(message.find("rtol"), std::string::npos) << message;
 }
 
+TEST(Config, AMessageAboutAKeyGetsItsPlace) {
+  const RunConfig config = read("[phase]\nangle = 20\n", {"phase.directions=[[0, 0, 0]]"});
+  EXPECT_EQ(placed(config, "phase.angle = 20: must be 7"),
+            "case.toml:2:9: phase.angle = 20: must be 7");
+  EXPECT_EQ(placed(config, "phase.directions[0] = 0: must be 7"),
+            "--set phase.directions=[[0, 0, 0]]: phase.directions[0] = 0: must be 7");
+  EXPECT_EQ(placed(config, "phase.count = 4: must be 7"), "phase.count = 4: must be 7");
+}
+
 TEST(Config, AnUnreadableFileIsAnIoError) {
   EXPECT_THROW((void)read_config("/nonexistent/case.toml", {}), IoError);
   EXPECT_THROW((void)read_config("/", {}), IoError);
