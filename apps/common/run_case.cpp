@@ -18,12 +18,12 @@
 #include "vesica/relax/neck_controller.hpp"
 #include "vesica/relax/relax.hpp"
 #include "vesica/relax/self_intersection_controller.hpp"
-#include "vesica/solve/make_stepper.hpp"
+#include "vesica/run/make_stepper.hpp"
 
 namespace vesica {
 namespace {
 
-relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
+relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
                        std::unique_ptr<solve::Stepper>& stepper, relax::Controller& interrupt,
                        bool is_quiet) {
   const auto style =
@@ -39,36 +39,36 @@ relax::Outcome compute(const io::RunConfig& config, const io::Case& vesicle,
   std::vector<relax::Controller*> controllers{&damping, &interrupt, &neck, &intersection};
   if (config.adaption.enabled) controllers.push_back(mesh.get());
   const auto restart = [&](problem::State start, const solve::Restart& how) {
-    return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
+    return run::restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };
   return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
-RunResult relaxed(const io::RunConfig& config, const io::Case& vesicle,
+RunResult relaxed(const config::RunConfig& config, const setup::Case& vesicle,
                   relax::Controller& interrupt, bool is_quiet) {
   std::unique_ptr<solve::Stepper> stepper;
   try {
     const DelayedSignals delayed;
-    stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
+    stepper = run::make_stepper(config.solver, vesicle.model, vesicle.start);
   } catch (const SolverError& error) {
-    return {io::make_verdict(io::record_failed_start(config, vesicle, error.what()), config.solver,
-                             vesicle.model, vesicle.start),
+    return {relax::make_verdict(io::record_failed_start(config, vesicle, error.what()),
+                                config.solver, vesicle.model, vesicle.start),
             vesicle.start};
   }
   io::create_run_folder(config.output.directory);
   relax::Outcome outcome = compute(config, vesicle, stepper, interrupt, is_quiet);
-  return {io::make_verdict(std::move(outcome), config.solver, vesicle.model, stepper->state()),
+  return {relax::make_verdict(std::move(outcome), config.solver, vesicle.model, stepper->state()),
           stepper->state()};
 }
 
 }  // namespace
 
-void check_run(const io::RunConfig& config, const std::string& case_file, bool overwrites) {
+void check_run(const config::RunConfig& config, const std::string& case_file, bool overwrites) {
   io::check_run_folder(config.output.directory, case_file, overwrites);
   (void)relax::resolved_damping(config.damping);
 }
 
-RunResult run_case(const io::RunConfig& config, const io::Case& vesicle,
+RunResult run_case(const config::RunConfig& config, const setup::Case& vesicle,
                    relax::Controller& interrupt, bool is_quiet) {
   RunResult result = relaxed(config, vesicle, interrupt, is_quiet);
   io::write_verdict(config, result.verdict);

@@ -8,9 +8,10 @@
 #include "common/run_case.hpp"
 #include "common/signals.hpp"
 #include "prepare.hpp"
-#include "vesica/io/comparison.hpp"
+#include "vesica/compare/comparison.hpp"
 #include "vesica/io/comparison_files.hpp"
 #include "vesica/io/run_folder.hpp"
+#include "vesica/io/run_reader.hpp"
 #include "vesica/relax/interrupt_controller.hpp"
 
 namespace vesica {
@@ -19,20 +20,20 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Writes to `folder` unless it is empty, and prints.
-int conclude(std::vector<io::ComparedRun> runs, const fs::path& folder, bool is_quiet) {
-  const io::Comparison comparison = io::compare(std::move(runs));
+int conclude(std::vector<compare::ComparedRun> runs, const fs::path& folder, bool is_quiet) {
+  const compare::Comparison comparison = compare::compare(std::move(runs));
   if (!is_quiet) io::print_comparison(std::cout, comparison);
-  if (folder.empty()) return io::exit_status(comparison);
+  if (folder.empty()) return compare::exit_status(comparison);
   io::create_run_folder(folder);
   io::write_comparison(folder, comparison);
   if (const auto failure = io::draw_comparison(folder))
     std::cerr << "warning: " << *failure << '\n';
   if (!is_quiet) io::print_comparison_files(std::cout, comparison, folder);
-  return io::exit_status(comparison);
+  return compare::exit_status(comparison);
 }
 
 int compare_methods(const Arguments& arguments) {
-  std::vector<io::ComparedRun> results;
+  std::vector<compare::ComparedRun> results;
   PreparedComparison prepared = prepare(arguments);
   relax::InterruptController interrupt(catch_signals());
   for (PreparedRun& run : prepared.runs) {
@@ -41,7 +42,7 @@ int compare_methods(const Arguments& arguments) {
     if (result.verdict.outcome.status == relax::RunStatus::interrupted) {
       std::cerr << "vesica-compare: interrupted in the run " << run.name
                 << ", which is saved; nothing was compared\n";
-      return io::exit_status(result.verdict.outcome);
+      return relax::exit_status(result.verdict.outcome);
     }
     results.push_back({run.name, run.config.output.directory, std::move(run.vesicle.model),
                        std::move(result.state), std::move(result.verdict),

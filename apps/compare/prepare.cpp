@@ -14,13 +14,13 @@ PreparedComparison prepare(const Arguments& arguments) {
   for (const Column& column : columns(arguments)) {
     std::vector<std::string> overrides = arguments.options.overrides;
     overrides.insert(overrides.end(), column.overrides.begin(), column.overrides.end());
-    io::RunConfig config = io::read_config(case_file, overrides);
+    config::RunConfig config = config::read_config(case_file, overrides);
     result.folder =
         arguments.options.directory.empty() ? config.output.directory : arguments.options.directory;
     config.output.directory = (result.folder / column.name).string();
-    io::Case vesicle = io::with_places(config, [&] {
+    setup::Case vesicle = config::with_places(config, [&] {
       check_run(config, case_file, arguments.options.overwrites);
-      return io::make_case(config);
+      return setup::make_case(config);
     });
     result.runs.push_back({column.name, std::move(config), std::move(vesicle)});
   }

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "arguments.hpp"
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica {
 
 /// A run that can begin.
 struct PreparedRun {
   std::string name;
-  io::RunConfig config;
-  io::Case vesicle;
+  config::RunConfig config;
+  setup::Case vesicle;
 };
 
 /// All runs of a case, and the folder that takes them.

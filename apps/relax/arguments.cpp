@@ -34,7 +34,7 @@ ParsedCommandLine parse_command_line(int argc, char** argv) {
     return {std::nullopt, app.exit(error) == 0 ? 0 : bad_input};
   }
   if (wants_template) {
-    io::write_template(std::cout);
+    config::write_template(std::cout);
     return {};
   }
   if (arguments.case_file.empty()) {
@@ -45,8 +45,8 @@ ParsedCommandLine parse_command_line(int argc, char** argv) {
   return {arguments, 0};
 }
 
-io::RunConfig read_config(const Arguments& arguments) {
-  io::RunConfig config = io::read_config(arguments.case_file, arguments.options.overrides);
+config::RunConfig read_config(const Arguments& arguments) {
+  config::RunConfig config = config::read_config(arguments.case_file, arguments.options.overrides);
   if (!arguments.options.directory.empty()) config.output.directory = arguments.options.directory;
   return config;
 }

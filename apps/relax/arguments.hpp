@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/run_options.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
 
 namespace vesica {
 
@@ -25,6 +25,6 @@ struct ParsedCommandLine {
 [[nodiscard]] ParsedCommandLine parse_command_line(int argc, char** argv);
 
 /// The case file with what the command line sets. Throws ConfigError.
-[[nodiscard]] io::RunConfig read_config(const Arguments& arguments);
+[[nodiscard]] config::RunConfig read_config(const Arguments& arguments);
 
 }  // namespace vesica

@@ -4,22 +4,24 @@
 #include "common/guarded.hpp"
 #include "common/run_case.hpp"
 #include "common/signals.hpp"
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
 #include "vesica/io/run_reader.hpp"
-#include "vesica/io/verdict.hpp"
+#include "vesica/io/verdict_files.hpp"
 #include "vesica/relax/interrupt_controller.hpp"
+#include "vesica/relax/verdict.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica {
 namespace {
 
-int run(const io::RunConfig& config, const Arguments& arguments) {
+int run(const config::RunConfig& config, const Arguments& arguments) {
   check_run(config, arguments.case_file, arguments.options.overwrites);
-  const io::Case vesicle = arguments.resumed.empty() ? io::make_case(config)
-                                                     : io::resumed_case(config, arguments.resumed);
+  const setup::Case vesicle = arguments.resumed.empty()
+                                  ? setup::make_case(config)
+                                  : io::resumed_case(config, arguments.resumed);
   for (const std::string& warning : vesicle.warnings) std::cerr << "warning: " << warning << '\n';
   relax::InterruptController interrupt(catch_signals());
-  const io::Verdict verdict =
+  const relax::Verdict verdict =
       run_case(config, vesicle, interrupt, arguments.options.is_quiet).verdict;
   if (!arguments.options.is_quiet) {
     io::print_verdict(std::cout, verdict);
@@ -27,7 +29,7 @@ int run(const io::RunConfig& config, const Arguments& arguments) {
   } else if (verdict.outcome.status == relax::RunStatus::numerical_failure) {
     std::cerr << "vesica-relax: numerical failure: " << verdict.outcome.reason << '\n';
   }
-  return io::exit_status(verdict.outcome);
+  return relax::exit_status(verdict.outcome);
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ int main(int argc, char** argv) {
   return guarded("vesica-relax", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     if (!command_line.arguments) return command_line.status;
-    const io::RunConfig config = read_config(*command_line.arguments);
-    return io::with_places(config, [&] { return run(config, *command_line.arguments); });
+    const config::RunConfig config = read_config(*command_line.arguments);
+    return config::with_places(config, [&] { return run(config, *command_line.arguments); });
   });
 }

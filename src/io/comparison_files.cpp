@@ -12,7 +12,7 @@
 
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
-#include "vesica/problem/profile.hpp"
+#include "vesica/measure/profile.hpp"
 
 namespace vesica::io {
 namespace {
@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* script_name = "comparison.gp";
 
-std::string profile_text(const problem::State& state, const problem::ProfilePlane& plane) {
+std::string profile_text(const problem::State& state, const measure::ProfilePlane& plane) {
   std::string text = "# loop,along,across,order_parameter\n";
   int number = 0;
-  for (const problem::ProfileLoop& loop : problem::profile(state, plane)) {
-    for (const problem::ProfilePoint& point : loop)
+  for (const measure::ProfileLoop& loop : measure::profile(state, plane)) {
+    for (const measure::ProfilePoint& point : loop)
       text +=
           fmt::format("{},{},{},{}\n", number, point.along, point.across, point.order_parameter);
     text += "\n";  // gnuplot lifts the pen
@@ -34,7 +34,7 @@ std::string profile_text(const problem::State& state, const problem::ProfilePlan
   return text;
 }
 
-std::string energy_text(const EnergyHistory& history) {
+std::string energy_text(const compare::EnergyHistory& history) {
   std::string text = "# step,seconds,energy\n";
   for (std::size_t i = 0; i < history.energy.size(); ++i)
     text += fmt::format("{},{},{}\n", history.step[i], history.seconds[i], history.energy[i]);
@@ -42,10 +42,10 @@ std::string energy_text(const EnergyHistory& history) {
 }
 
 /// The final state of a run as the first run is placed.
-problem::State placed(const Comparison& comparison, std::size_t run) {
+problem::State placed(const compare::Comparison& comparison, std::size_t run) {
   problem::State state = comparison.runs[run].state;
   if (run > 0) {
-    const problem::RigidMotion& motion = comparison.differences[run - 1].shape.motion;
+    const compare::RigidMotion& motion = comparison.differences[run - 1].shape.motion;
     state.values.positions = motion.of(state.values.positions);
   }
   return state;
@@ -103,10 +103,10 @@ void check_comparison_folder(const fs::path& folder, bool overwrite) {
       folder.string()));
 }
 
-void write_comparison(const fs::path& folder, const Comparison& comparison) {
-  const problem::ProfilePlane plane = problem::profile_plane(comparison.runs.front().state);
+void write_comparison(const fs::path& folder, const compare::Comparison& comparison) {
+  const measure::ProfilePlane plane = measure::profile_plane(comparison.runs.front().state);
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    const ComparedRun& run = comparison.runs[i];
+    const compare::ComparedRun& run = comparison.runs[i];
     write_text_file(folder / fmt::format("profile_{}.csv", run.name),
                     profile_text(placed(comparison, i), plane));
     write_text_file(folder / fmt::format("energy_{}.csv", run.name), energy_text(run.history));
@@ -115,7 +115,7 @@ void write_comparison(const fs::path& folder, const Comparison& comparison) {
   write_text_file(folder / "comparison.json", to_json(comparison));
 }
 
-void print_comparison_files(std::ostream& out, const Comparison& comparison,
+void print_comparison_files(std::ostream& out, const compare::Comparison& comparison,
                             const fs::path& folder) {
   std::error_code ignored;
   const auto print = [&](const std::string& name, const char* meaning) {
@@ -127,7 +127,7 @@ void print_comparison_files(std::ostream& out, const Comparison& comparison,
   print("profiles.png", "cuts through the long axis");
   print("energy.png", "energies against seconds");
   print(script_name, "the gnuplot script of the pictures");
-  for (const ComparedRun& run : comparison.runs) {
+  for (const compare::ComparedRun& run : comparison.runs) {
     print(fmt::format("profile_{}.csv", run.name), "a cut");
     print(fmt::format("energy_{}.csv", run.name), "energy after every step");
     print(run.name, "the run itself");

@@ -36,7 +36,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return fmt::format("plot {}\n", fmt::join(parts, ", \\\n     "));
 }
 
-std::string profile_curve(const ComparedRun& run, std::size_t index, bool is_phase_1) {
+std::string profile_curve(const compare::ComparedRun& run, std::size_t index, bool is_phase_1) {
   const Style& style = style_of(index);
   const bool is_two_phase = run.state.is_two_phase();
   const char* condition = is_phase_1 ? ">=" : "<=";
@@ -48,7 +48,7 @@ std::string profile_curve(const ComparedRun& run, std::size_t index, bool is_pha
       escaped(run.name), phase);
 }
 
-std::string profiles_script(const Comparison& comparison) {
+std::string profiles_script(const compare::Comparison& comparison) {
   std::vector<std::string> curves;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     curves.push_back(profile_curve(comparison.runs[i], i, true));
@@ -66,26 +66,26 @@ std::string profiles_script(const Comparison& comparison) {
 }
 
 /// False for a run that could not even begin.
-bool has_energies(const ComparedRun& run) {
+bool has_energies(const compare::ComparedRun& run) {
   return !run.history.energy.empty() && std::isfinite(run.history.energy.back());
 }
 
 /// Of the final ones: on the way a state may lie lower while it misses its constraints.
-double lowest_energy(const Comparison& comparison) {
+double lowest_energy(const compare::Comparison& comparison) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const ComparedRun& run : comparison.runs)
+  for (const compare::ComparedRun& run : comparison.runs)
     if (has_energies(run)) lowest = std::min(lowest, run.history.energy.back());
   return lowest;
 }
 
 /// Above, the energies; below, on a logarithmic scale, what they are above the lowest one at the
 /// end.
-std::string energy_script(const Comparison& comparison) {
+std::string energy_script(const compare::Comparison& comparison) {
   const double lowest = lowest_energy(comparison);
   std::vector<std::string> totals;
   std::vector<std::string> excesses;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    const ComparedRun& run = comparison.runs[i];
+    const compare::ComparedRun& run = comparison.runs[i];
     if (!has_energies(run)) continue;
     const std::string line =
         fmt::format("with linespoints pt 7 ps 0.5 lw 1.8 dt {} lc rgb '{}' title '{}'",
@@ -111,7 +111,7 @@ std::string energy_script(const Comparison& comparison) {
 
 }  // namespace
 
-std::string plot_script(const Comparison& comparison) {
+std::string plot_script(const compare::Comparison& comparison) {
   return "# Draws profiles.png and energy.png: gnuplot comparison.gp\n"
          "set datafile separator ','\n"
          "set key at screen 0.5, screen 0.02 center bottom horizontal\n"

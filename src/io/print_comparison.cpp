@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "vesica/io/comparison.hpp"
+#include "vesica/compare/comparison.hpp"
 
 namespace vesica::io {
 namespace {
@@ -17,26 +17,26 @@ constexpr int column_width = 18;
 /// A table with a column for each run.
 class SideBySide {
  public:
-  explicit SideBySide(const Comparison& comparison) : comparison_(comparison) {
+  explicit SideBySide(const compare::Comparison& comparison) : comparison_(comparison) {
     text_ = fmt::format("{:{}}", "", label_width);
-    for (const ComparedRun& run : comparison.runs) text_ += cell(run.name);
+    for (const compare::ComparedRun& run : comparison.runs) text_ += cell(run.name);
     text_ += '\n';
   }
 
-  using Number = std::function<std::optional<double>(const ComparedRun&)>;
+  using Number = std::function<std::optional<double>(const compare::ComparedRun&)>;
 
   /// A row, unless no run has such a number.
   SideBySide& add(std::string_view label, std::string_view format, const Number& number) {
-    return add_text(label, [&](const ComparedRun& run) {
+    return add_text(label, [&](const compare::ComparedRun& run) {
       const std::optional<double> value = number(run);
       return value && !std::isnan(*value) ? fmt::format(fmt::runtime(format), *value) : "";
     });
   }
   SideBySide& add_text(std::string_view label,
-                       const std::function<std::string(const ComparedRun&)>& text) {
+                       const std::function<std::string(const compare::ComparedRun&)>& text) {
     std::string line = fmt::format("  {:<{}}", label, label_width - 2);
     bool is_empty = true;
-    for (const ComparedRun& run : comparison_.runs) {
+    for (const compare::ComparedRun& run : comparison_.runs) {
       const std::string value = text(run);
       is_empty = is_empty && value.empty();
       line += cell(value.empty() ? "-" : value);
@@ -51,12 +51,12 @@ class SideBySide {
     return fmt::format("{:>{}}", value, column_width);
   }
 
-  const Comparison& comparison_;
+  const compare::Comparison& comparison_;
   std::string text_;
 };
 
 void add_energies(SideBySide& table) {
-  const auto energy = [](const ComparedRun& run) -> const problem::EnergyParts& {
+  const auto energy = [](const compare::ComparedRun& run) -> const model::EnergyParts& {
     return run.verdict.outcome.diagnostics.energy;
   };
   table.add("energy", "{:.10g}", [=](const auto& run) { return energy(run).total(); })
@@ -66,8 +66,8 @@ void add_energies(SideBySide& table) {
 }
 
 void add_constraints(SideBySide& table) {
-  const auto lambda = [](const ComparedRun& run) { return run.verdict.multipliers; };
-  const auto error = [](const ComparedRun& run) {
+  const auto lambda = [](const compare::ComparedRun& run) { return run.verdict.multipliers; };
+  const auto error = [](const compare::ComparedRun& run) {
     return run.verdict.outcome.diagnostics.constraint_errors;
   };
   table.add("multiplier volume", "{:.9g}", [=](const auto& run) { return lambda(run).volume; })
@@ -79,7 +79,7 @@ void add_constraints(SideBySide& table) {
 }
 
 void add_shapes(SideBySide& table) {
-  const auto shape = [](const ComparedRun& run) -> const problem::ShapeNumbers& {
+  const auto shape = [](const compare::ComparedRun& run) -> const measure::ShapeNumbers& {
     return run.verdict.shape;
   };
   table.add("reduced volume", "{:.6g}", [=](const auto& run) { return shape(run).reduced_volume; })
@@ -91,8 +91,8 @@ void add_shapes(SideBySide& table) {
            [=](const auto& run) { return shape(run).saddle_splay_difference; })
       .add("neck radius", "{:.6g}", [=](const auto& run) { return shape(run).neck_radius; })
       .add("length", "{:.6g}", [=](const auto& run) { return shape(run).length; })
-      .add_text("domains, phase 1 + 2", [=](const ComparedRun& run) {
-        const problem::ShapeNumbers& numbers = shape(run);
+      .add_text("domains, phase 1 + 2", [=](const compare::ComparedRun& run) {
+        const measure::ShapeNumbers& numbers = shape(run);
         return numbers.domains_1
                    ? fmt::format("{} + {}", *numbers.domains_1, numbers.domains_2.value_or(0))
                    : "";
@@ -100,16 +100,17 @@ void add_shapes(SideBySide& table) {
 }
 
 void add_work(SideBySide& table) {
-  const auto report = [](const ComparedRun& run) -> const solve::StepReport& {
+  const auto report = [](const compare::ComparedRun& run) -> const solve::StepReport& {
     return run.verdict.outcome.report;
   };
   const auto count = [&](std::string_view label, long solve::SolverCounts::*member) {
-    table.add_text(label, [=](const ComparedRun& run) {
+    table.add_text(label, [=](const compare::ComparedRun& run) {
       return fmt::format("{}", report(run).counts.*member);
     });
   };
-  table.add_text("nodes",
-                 [](const ComparedRun& run) { return fmt::format("{}", run.verdict.num_nodes); });
+  table.add_text("nodes", [](const compare::ComparedRun& run) {
+    return fmt::format("{}", run.verdict.num_nodes);
+  });
   table.add("mesh quality", "{:.3f}",
             [](const auto& run) { return run.verdict.outcome.diagnostics.quality; });
   table.add("seconds", "{:.2f}", [=](const auto& run) { return report(run).seconds.total; });
@@ -124,8 +125,8 @@ std::string optional_text(std::string_view name, const std::optional<double>& va
   return value ? fmt::format(", {} {:.2e}", name, *value) : "";
 }
 
-std::string difference_text(const Difference& difference) {
-  const problem::PerConstraint& lambda = difference.multipliers;
+std::string difference_text(const compare::Difference& difference) {
+  const model::PerConstraint& lambda = difference.multipliers;
   return fmt::format(
              "{} - {}{}: energy {:.3e} (relative {:.2e})", difference.second, difference.first,
              difference.is_on_common_mesh ? ", both polished on the nodes of the first" : "",
@@ -140,18 +141,18 @@ std::string difference_text(const Difference& difference) {
 
 }  // namespace
 
-void print_comparison(std::ostream& out, const Comparison& comparison) {
+void print_comparison(std::ostream& out, const compare::Comparison& comparison) {
   SideBySide table(comparison);
-  table.add_text("status", [](const ComparedRun& run) {
-    return std::string(status_name(run.verdict.outcome.status));
+  table.add_text("status", [](const compare::ComparedRun& run) {
+    return std::string(relax::status_name(run.verdict.outcome.status));
   });
-  table.add_text("method", [](const ComparedRun& run) { return run.verdict.method; });
+  table.add_text("method", [](const compare::ComparedRun& run) { return run.verdict.method; });
   add_energies(table);
   add_constraints(table);
   add_shapes(table);
   add_work(table);
   out << table.text();
-  for (const Difference& difference : comparison.differences)
+  for (const compare::Difference& difference : comparison.differences)
     out << '\n' << difference_text(difference);
   out << std::flush;
 }

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "vesica/io/verdict.hpp"
+#include "vesica/io/verdict_files.hpp"
 
 namespace vesica::io {
 namespace {
@@ -35,11 +35,11 @@ class Row {
   bool is_empty_ = true;
 };
 
-std::string physics_text(const Verdict& verdict) {
-  const problem::Diagnostics& measured = verdict.outcome.diagnostics;
-  const problem::PerConstraint& lambda = verdict.multipliers;
-  const problem::PerConstraint& errors = measured.constraint_errors;
-  const problem::ShapeNumbers& shape = verdict.shape;
+std::string physics_text(const relax::Verdict& verdict) {
+  const measure::Diagnostics& measured = verdict.outcome.diagnostics;
+  const model::PerConstraint& lambda = verdict.multipliers;
+  const model::PerConstraint& errors = measured.constraint_errors;
+  const measure::ShapeNumbers& shape = verdict.shape;
   Row energy("energy");
   energy.add("total", measured.energy.total()).add("bending", measured.energy.bending);
   energy.add("gaussian", measured.energy.gaussian).add("line", measured.energy.line);
@@ -65,11 +65,11 @@ std::string physics_text(const Verdict& verdict) {
          domains.text();
 }
 
-std::string numerics_text(const Verdict& verdict) {
+std::string numerics_text(const relax::Verdict& verdict) {
   const relax::Outcome& outcome = verdict.outcome;
   const solve::SolverCounts& counts = outcome.report.counts;
   const solve::SolverSeconds& spent = outcome.report.seconds;
-  const problem::VelocityNorms& norms = outcome.diagnostics.velocity;
+  const measure::VelocityNorms& norms = outcome.diagnostics.velocity;
   const double radius = verdict.shape.characteristic_radius;
   Row velocity("normal velocity");
   velocity.add("", norms.normal_rigid_free / radius, "{:.2e}")
@@ -104,13 +104,13 @@ std::string numerics_text(const Verdict& verdict) {
 
 }  // namespace
 
-void print_verdict(std::ostream& out, const Verdict& verdict) {
-  out << fmt::format("{}: {}\n", status_name(verdict.outcome.status), verdict.outcome.reason)
+void print_verdict(std::ostream& out, const relax::Verdict& verdict) {
+  out << fmt::format("{}: {}\n", relax::status_name(verdict.outcome.status), verdict.outcome.reason)
       << fmt::format("  {:<18}{:.6g}\n", "time", verdict.time) << physics_text(verdict)
       << numerics_text(verdict) << std::flush;
 }
 
-void print_files(std::ostream& out, const RunConfig& config) {
+void print_files(std::ostream& out, const config::RunConfig& config) {
   const std::filesystem::path folder = config.output.directory;
   const auto print = [&out, &folder](const char* name, const char* meaning) {
     out << fmt::format("  {}  {}\n", (folder / name).string(), meaning);

@@ -12,7 +12,7 @@ namespace {
 constexpr long sparse_steps = 10;
 constexpr double sparse_seconds = 5;
 
-double largest_error(const problem::PerConstraint& errors) {
+double largest_error(const model::PerConstraint& errors) {
   return std::max({std::abs(errors.volume.value_or(0)), std::abs(errors.area.value_or(0)),
                    std::abs(errors.phase.value_or(0))});
 }
@@ -20,7 +20,7 @@ double largest_error(const problem::PerConstraint& errors) {
 }  // namespace
 
 std::string progress_line(const relax::StepView& view) {
-  const problem::Diagnostics& measured = view.diagnostics;
+  const measure::Diagnostics& measured = view.diagnostics;
   if (view.report.gradient) {
     return fmt::format("step {}  evaluations {}  F {:.6f}  distance {:.1e}  C {:.1e}  q {:.3f}",
                        view.report.counts.steps, view.report.counts.residuals,

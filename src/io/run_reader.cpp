@@ -117,7 +117,7 @@ class FrameReader {
   const hdf5::ReadableFile& file_;
 };
 
-Origin origin_of(const hdf5::ReadableFile& file) {
+setup::Origin origin_of(const hdf5::ReadableFile& file) {
   const std::string group = "/origin";
   if (!file.has(group)) file.refuse(group, "is missing: an older version wrote the file");
   return {{file.number_attribute(group, "volume"), file.number_attribute(group, "area"),
@@ -125,13 +125,13 @@ Origin origin_of(const hdf5::ReadableFile& file) {
           file.number_attribute(group, "is_sphere") != 0};
 }
 
-problem::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
+model::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
   return {json.optional_number(object + "/volume"), json.optional_number(object + "/area"),
           json.optional_number(object + "/phase")};
 }
 
-problem::ShapeNumbers shape_of(const JsonReader& json) {
-  problem::ShapeNumbers shape;
+measure::ShapeNumbers shape_of(const JsonReader& json) {
+  measure::ShapeNumbers shape;
   shape.characteristic_radius = json.number("/shape/characteristic_radius");
   shape.reduced_volume = json.number("/shape/reduced_volume");
   shape.phase_fraction = json.optional_number("/shape/phase_fraction");
@@ -146,8 +146,8 @@ problem::ShapeNumbers shape_of(const JsonReader& json) {
 }
 
 /// Areas and boundary lengths; their centroids stand in the trajectory.
-std::vector<problem::PhaseDomain> domains_of(const JsonReader& json) {
-  std::vector<problem::PhaseDomain> domains;
+std::vector<measure::PhaseDomain> domains_of(const JsonReader& json) {
+  std::vector<measure::PhaseDomain> domains;
   for (const int phase : {1, 2}) {
     const std::string areas = fmt::format("/domains/areas/phase_{}", phase);
     const std::string lengths = fmt::format("/domains/boundary_lengths/phase_{}", phase);
@@ -159,8 +159,8 @@ std::vector<problem::PhaseDomain> domains_of(const JsonReader& json) {
   return domains;
 }
 
-problem::Diagnostics diagnostics_of(const JsonReader& json) {
-  problem::Diagnostics measured;
+measure::Diagnostics diagnostics_of(const JsonReader& json) {
+  measure::Diagnostics measured;
   measured.energy = {json.number("/energy/bending"), json.number("/energy/gaussian"),
                      json.optional_number("/energy/line")};
   measured.volume = json.number("/shape/volume");
@@ -226,14 +226,14 @@ relax::RunStatus status_named(const std::string& name, const fs::path& file) {
        {RunStatus::converged, RunStatus::time_limit, RunStatus::step_limit, RunStatus::stopped,
         RunStatus::neck_closes, RunStatus::budding, RunStatus::self_intersection,
         RunStatus::interrupted, RunStatus::numerical_failure}) {
-    if (status_name(status) == name) return status;
+    if (relax::status_name(status) == name) return status;
   }
   throw IoError(fmt::format("{}: /status \"{}\" is not known", file.string(), name));
 }
 
-Verdict read_verdict(const fs::path& file) {
+relax::Verdict read_verdict(const fs::path& file) {
   const JsonReader json(file);
-  Verdict verdict;
+  relax::Verdict verdict;
   verdict.outcome.status = status_named(json.text("/status"), file);
   verdict.outcome.reason = json.text("/reason");
   verdict.outcome.diagnostics = diagnostics_of(json);
@@ -255,7 +255,7 @@ Verdict read_verdict(const fs::path& file) {
   return verdict;
 }
 
-EnergyHistory history_of(const hdf5::ReadableFile& file) {
+compare::EnergyHistory history_of(const hdf5::ReadableFile& file) {
   return {file.numbers("/series/step"), file.numbers("/series/seconds_processor"),
           file.numbers("/series/energy_total")};
 }
@@ -267,18 +267,18 @@ int signal_of(const hdf5::ReadableFile& file) {
 
 }  // namespace
 
-EnergyHistory read_history(const fs::path& folder) {
+compare::EnergyHistory read_history(const fs::path& folder) {
   return history_of(hdf5::ReadableFile(folder / "trajectory.h5"));
 }
 
 FinishedRun read_run(const fs::path& folder) {
   check_has_ended(folder);
   FinishedRun run;
-  run.config = read_config((folder / "case.toml").string(), {});
+  run.config = config::read_config((folder / "case.toml").string(), {});
   const hdf5::ReadableFile file(folder / "trajectory.h5");
   const FrameReader frames(file);
   run.state = frames.last();
-  run.model = case_of(run.config, run.state, origin_of(file)).model;
+  run.model = setup::case_of(run.config, run.state, origin_of(file)).model;
   run.verdict = read_verdict(folder / "verdict.json");
   if (run.verdict.num_nodes != run.state.triangulation->num_nodes())
     file.refuse("/frames", "and verdict.json differ in the number of nodes");
@@ -288,7 +288,7 @@ FinishedRun read_run(const fs::path& folder) {
   return run;
 }
 
-Case resumed_case(const RunConfig& config, const fs::path& folder) {
+setup::Case resumed_case(const config::RunConfig& config, const fs::path& folder) {
   const Resumable run = find_resumable(folder);
   const hdf5::ReadableFile file(run.trajectory);
   const FrameReader frames(file);
@@ -298,7 +298,7 @@ Case resumed_case(const RunConfig& config, const fs::path& folder) {
                                   folder.string(), config.phase ? "no" : "a",
                                   config.phase ? "one" : "none"));
   }
-  return case_of(config, std::move(last), origin_of(file));
+  return setup::case_of(config, std::move(last), origin_of(file));
 }
 
 }  // namespace vesica::io

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "io/option_values.hpp"
+#include "config/option_values.hpp"
 #include "io/time_series.hpp"
 #include "vesica/core/version.hpp"
-#include "vesica/io/verdict.hpp"
+#include "vesica/flow/library_versions.hpp"
 #include "vesica/linalg/library_versions.hpp"
-#include "vesica/problem/diagnostics.hpp"
-#include "vesica/solve/library_versions.hpp"
+#include "vesica/measure/diagnostics.hpp"
+#include "vesica/relax/verdict.hpp"
 
 namespace vesica::io {
 namespace {
@@ -48,7 +48,7 @@ class AttributeWriter {
     } else if constexpr (std::is_enum_v<T>) {
       file_.set_attribute(group_, name, std::string(name_of(value)));
     } else {
-      file_.set_attribute(group_, name, toml_text(value));
+      file_.set_attribute(group_, name, config::toml_text(value));
     }
   }
   template <class T>
@@ -63,8 +63,8 @@ class AttributeWriter {
 
 }  // namespace
 
-TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RunConfig& config,
-                               const Case& vesicle)
+TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const config::RunConfig& config,
+                               const setup::Case& vesicle)
     : file_(path), model_(vesicle.model) {
   for (const char* group : {"/meshes", "/frames", "/series", "/domains", "/events"})
     file_.make_group(group);
@@ -73,26 +73,26 @@ TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RunConfi
   write_versions();
 }
 
-void TrajectoryFile::write_configuration(const RunConfig& config) {
+void TrajectoryFile::write_configuration(const config::RunConfig& config) {
   const std::string root = "/configuration";
   file_.make_group(root);
   file_.set_attribute(root, "title", config.title);
-  file_.write_text(root + "/toml", to_toml(config));
-  RunConfig::tables(config,
-                    [this, &root]<class Options>(const Table& table, const Options& options) {
-                      const std::string group = fmt::format("{}/{}", root, table.name);
-                      if constexpr (requires { options.has_value(); }) {
-                        if (!options) return;
-                        file_.make_group(group);
-                        Options::value_type::fields(*options, AttributeWriter(file_, group));
-                      } else {
-                        file_.make_group(group);
-                        Options::fields(options, AttributeWriter(file_, group));
-                      }
-                    });
+  file_.write_text(root + "/toml", config::to_toml(config));
+  config::RunConfig::tables(
+      config, [this, &root]<class Options>(const config::Table& table, const Options& options) {
+        const std::string group = fmt::format("{}/{}", root, table.name);
+        if constexpr (requires { options.has_value(); }) {
+          if (!options) return;
+          file_.make_group(group);
+          Options::value_type::fields(*options, AttributeWriter(file_, group));
+        } else {
+          file_.make_group(group);
+          Options::fields(options, AttributeWriter(file_, group));
+        }
+      });
 }
 
-void TrajectoryFile::write_origin(const Origin& origin) {
+void TrajectoryFile::write_origin(const setup::Origin& origin) {
   const std::string group = "/origin";
   file_.make_group(group);
   file_.set_attribute(group, "volume", origin.measures.volume);
@@ -106,7 +106,7 @@ void TrajectoryFile::write_versions() {
   const std::string group = "/versions";
   file_.make_group(group);
   file_.set_attribute(group, "vesica", std::string(version()));
-  file_.set_attribute(group, "sundials", solve::sundials_version());
+  file_.set_attribute(group, "sundials", flow::sundials_version());
   file_.set_attribute(group, "suitesparse", linalg::suitesparse_versions());
   file_.set_attribute(group, "hdf5",
                       fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE));
@@ -137,13 +137,13 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   const problem::State& state = view.state;
   if (state.triangulation != last_triangulation_) write_mesh(state.triangulation);
   const std::string group = numbered("frames", frames_.size());
-  const problem::NodalFields fields = problem::nodal_fields(model_, state);
+  const measure::NodalFields fields = measure::nodal_fields(model_, state);
   file_.make_group(group);
   file_.set_attribute(group, "time", state.time);
   file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
   file_.set_attribute(group, "mesh", meshes_.back());
   file_.set_attribute(group, "damping", state.damping);
-  const problem::PerConstraint& multipliers = state.values.multipliers;
+  const model::PerConstraint& multipliers = state.values.multipliers;
   if (multipliers.volume) file_.set_attribute(group, "multiplier_volume", *multipliers.volume);
   if (multipliers.area) file_.set_attribute(group, "multiplier_area", *multipliers.area);
   if (multipliers.phase) file_.set_attribute(group, "multiplier_phase", *multipliers.phase);
@@ -162,8 +162,8 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
 }
 
 /// Rows of the domains' table for the frame that is being added.
-void TrajectoryFile::write_domains(const problem::Diagnostics& diagnostics) {
-  using problem::PhaseDomain;
+void TrajectoryFile::write_domains(const measure::Diagnostics& diagnostics) {
+  using measure::PhaseDomain;
   const auto column = [&](const char* name, const auto& value) {
     std::vector<double> values;
     for (const PhaseDomain& domain : diagnostics.domains) values.push_back(value(domain));
@@ -182,7 +182,7 @@ void TrajectoryFile::write_domains(const problem::Diagnostics& diagnostics) {
 void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome) {
   const std::string group = "/outcome";
   file_.make_group(group);
-  file_.set_attribute(group, "status", std::string(status_name(outcome.status)));
+  file_.set_attribute(group, "status", std::string(relax::status_name(outcome.status)));
   file_.set_attribute(group, "reason", outcome.reason);
   file_.set_attribute(group, "exit_status", static_cast<std::int64_t>(exit_status(outcome)));
   file_.set_attribute(group, "time", view.state.time);

@@ -7,10 +7,10 @@
 
 #include "io/hdf5.hpp"
 #include "io/xdmf.hpp"
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/relax/observer.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica::io {
 
@@ -18,7 +18,8 @@ namespace vesica::io {
 class TrajectoryFile {
  public:
   /// Makes the file with `/configuration`, `/origin` and `/versions`.
-  TrajectoryFile(const std::filesystem::path& path, const RunConfig& config, const Case& vesicle);
+  TrajectoryFile(const std::filesystem::path& path, const config::RunConfig& config,
+                 const setup::Case& vesicle);
 
   /// Kept until the next flush.
   void add_row(const relax::StepView& view);
@@ -35,10 +36,10 @@ class TrajectoryFile {
   [[nodiscard]] const std::vector<XdmfFrame>& frames() const { return frames_; }
 
  private:
-  void write_configuration(const RunConfig& config);
-  void write_origin(const Origin& origin);
+  void write_configuration(const config::RunConfig& config);
+  void write_origin(const setup::Origin& origin);
   void write_versions();
-  void write_domains(const problem::Diagnostics& diagnostics);
+  void write_domains(const measure::Diagnostics& diagnostics);
   void write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation);
 
   hdf5::WritableFile file_;

@@ -9,7 +9,7 @@
 #include "io/trajectory_file.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/measure/diagnostics.hpp"
 
 namespace vesica::io {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::string_view final_xdmf_name = "trajectory.xdmf";
 
 class TrajectoryWriter::Writer {
  public:
-  Writer(fs::path folder, const RunConfig& config, const Case& vesicle)
+  Writer(fs::path folder, const config::RunConfig& config, const setup::Case& vesicle)
       : folder_(std::move(folder)),
         lock_(folder_),
         output_(config.output),
@@ -85,13 +85,14 @@ class TrajectoryWriter::Writer {
 
   fs::path folder_;
   FolderLock lock_;
-  OutputOptions output_;
+  config::OutputOptions output_;
   TrajectoryFile file_;
   mesh::Positions last_positions_;
   long last_frame_step_ = -1;
 };
 
-TrajectoryWriter::TrajectoryWriter(fs::path folder, const RunConfig& config, const Case& vesicle)
+TrajectoryWriter::TrajectoryWriter(fs::path folder, const config::RunConfig& config,
+                                   const setup::Case& vesicle)
     : writer_(std::make_unique<Writer>(std::move(folder), config, vesicle)) {}
 
 TrajectoryWriter::~TrajectoryWriter() = default;
@@ -126,13 +127,13 @@ void TrajectoryWriter::finish(const relax::StepView& view, const relax::Outcome&
   last->finish(view, outcome);
 }
 
-relax::Outcome record_failed_start(const RunConfig& config, const Case& vesicle,
+relax::Outcome record_failed_start(const config::RunConfig& config, const setup::Case& vesicle,
                                    std::string reason) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   relax::Outcome outcome;
   outcome.status = relax::RunStatus::numerical_failure;
   outcome.reason = std::move(reason);
-  outcome.diagnostics = problem::measure(vesicle.model, vesicle.start);
+  outcome.diagnostics = measure::measure(vesicle.model, vesicle.start);
   outcome.diagnostics.energy = {unknown, unknown, std::nullopt};
   outcome.diagnostics.velocity = {unknown, unknown, unknown};
   outcome.report.status = solve::StepStatus::failed;

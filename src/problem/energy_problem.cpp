@@ -169,7 +169,7 @@ EnergyFields EnergyProblem::fields(const mesh::Positions& positions,
   return {positions, moment(positions, order_parameter, time), order_parameter, time};
 }
 
-EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
+model::EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
   const auto physics = model_.at(fields.time);
   const auto count = at(triangulation_->num_triangles());
   std::vector<std::array<double, 3>> parts(count);
@@ -187,7 +187,7 @@ EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
       parts[at(t)][1] = gaussian_energy(physics, element);
     }
   });
-  EnergyParts sum;
+  model::EnergyParts sum;
   double line = 0;
   for (const auto& part : parts) {
     sum.bending += part[0];

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "rigid_modes.hpp"
-#include "surface_integral.hpp"
+#include "vesica/fem/surface_integral.hpp"
 
 namespace vesica::problem {
 
@@ -19,8 +19,8 @@ Gauge rigid_gauge(const mesh::Triangulation& triangulation, const mesh::Position
   const auto centre = centroid(triangulation, positions);
   Gauge moments = Gauge::Zero(positions.rows(), 6);
   RigidGram gram = RigidGram::Zero();
-  for_each_point(triangulation, positions, [&](const SurfaceSample& sample) {
-    const auto modes = rigid_modes(vector_at(positions, sample), centre, sample.frame.normal);
+  fem::for_each_point(triangulation, positions, [&](const fem::SurfaceSample& sample) {
+    const auto modes = rigid_modes(fem::vector_at(positions, sample), centre, sample.frame.normal);
     gram += sample.weight * modes * modes.transpose();
     for (std::size_t i = 0; i < 6; ++i) {
       moments.row(sample.triangle[i]) += sample.weight * sample.shape.value[i] * modes.transpose();
@@ -63,7 +63,7 @@ NormalGraph make_normal_graph(const mesh::Triangulation& triangulation,
 mesh::Positions nodal_normals(const mesh::Triangulation& triangulation,
                               const mesh::Positions& positions) {
   mesh::Positions normals = mesh::Positions::Zero(positions.rows(), 3);
-  for_each_point(triangulation, positions, [&](const SurfaceSample& sample) {
+  fem::for_each_point(triangulation, positions, [&](const fem::SurfaceSample& sample) {
     const auto& normal = sample.frame.normal;
     for (std::size_t i = 0; i < 6; ++i) {
       const double weight = sample.weight * sample.shape.value[i] * sample.shape.value[i];

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "surface_integral.hpp"
+#include "vesica/fem/surface_integral.hpp"
 
 namespace vesica::problem {
 
@@ -23,8 +23,8 @@ inline Vec3<double> centroid(const mesh::Triangulation& triangulation,
                              const mesh::Positions& positions) {
   Vec3<double> sum;
   double area = 0;
-  for_each_point(triangulation, positions, [&](const SurfaceSample& sample) {
-    sum = sum + sample.weight * vector_at(positions, sample);
+  fem::for_each_point(triangulation, positions, [&](const fem::SurfaceSample& sample) {
+    sum = sum + sample.weight * fem::vector_at(positions, sample);
     area += sample.weight;
   });
   return (1 / area) * sum;

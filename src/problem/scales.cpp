@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "surface_integral.hpp"
+#include "vesica/fem/surface_integral.hpp"
 
 namespace vesica::problem {
 
@@ -12,7 +12,8 @@ Scales scales_of(const model::Model& model, const State& start) {
   if (model.targets.area) {
     area = model.targets.area->last();
   } else {
-    for_each_point(start, [&](const SurfaceSample& sample) { area += sample.weight; });
+    fem::for_each_point(*start.triangulation, start.values.positions,
+                        [&](const fem::SurfaceSample& sample) { area += sample.weight; });
   }
   return {std::sqrt(area / (4 * std::numbers::pi)), model.material.bending_rigidity.phase_1.last()};
 }

@@ -103,7 +103,7 @@ Fields VariationalProblem::values(double time, const Eigen::VectorXd& y) const {
   std::array<std::optional<double>, model::num_constraints> named;
   const auto weights = multipliers(y);
   for (const int k : active_) named[at(k)] = weights[at(k)];
-  result.multipliers = PerConstraint::from(named);
+  result.multipliers = model::PerConstraint::from(named);
   return result;
 }
 
@@ -135,7 +135,8 @@ Eigen::VectorXd VariationalProblem::units(const Scales& scales) const {
   return units;
 }
 
-std::optional<EnergyParts> VariationalProblem::energy(double time, const Eigen::VectorXd& y) const {
+std::optional<model::EnergyParts> VariationalProblem::energy(double time,
+                                                             const Eigen::VectorXd& y) const {
   auto now = fields(time, y);
   now.moment = energy_.moment(now.positions, now.order_parameter, time);
   return energy_.energy(now);

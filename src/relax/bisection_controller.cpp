@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "vesica/adapt/conformal_map.hpp"
+#include "vesica/paper/conformal_map.hpp"
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
@@ -24,7 +24,7 @@ BisectionController::BisectionController(const AdaptionOptions& options, model::
 std::vector<Request> BisectionController::respond(const StepView& view) {
   if (!first_mesh_) {
     first_mesh_ = view.state.triangulation;
-    if (options_.method == MeshMethod::conformal) adapt::check_genus_zero(*first_mesh_);
+    if (options_.method == MeshMethod::conformal) paper::check_genus_zero(*first_mesh_);
   }
   if (std::exchange(is_new_image_, false)) image_quality_ = view.diagnostics.quality;
   if (view.report.counts.steps - last_change_ < options_.every) return {};
@@ -43,14 +43,14 @@ std::vector<Request> BisectionController::respond_to_failure(const StepView& vie
 std::vector<Request> BisectionController::respond_to_rest(const StepView& view) {
   if (changes_at_rest_ == max_changes_at_rest) return {};
   const auto marks = wanted_marks(model_, view.state, marking(), options_.max_nodes);
-  const auto num_large = std::count(marks.begin(), marks.end(), adapt::Mark::refine);
+  const auto num_large = std::count(marks.begin(), marks.end(), paper::Mark::refine);
   if (num_large == 0) return {};
   ++changes_at_rest_;
   return ask_for_bisection(
       view, fmt::format("{} elements are larger than wanted at the equilibrium", num_large));
 }
 
-adapt::BisectionOptions BisectionController::marking() const {
+paper::BisectionOptions BisectionController::marking() const {
   return {options_.n_in, options_.n_off, options_.n_kappa, options_.max_size * scales_.length};
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// alpha for the next step, in the units of the options.
 double next_alpha(const DampingOptions& options, double alpha,
-                  const problem::VelocityNorms& velocity) {
+                  const measure::VelocityNorms& velocity) {
   const double factor = *options.factor;
   switch (options.kind) {
     case DampingKind::fixed:
@@ -61,7 +61,7 @@ DampingController::DampingController(const DampingOptions& options, const proble
 
 std::vector<Request> DampingController::respond(const StepView& view) {
   if (view.report.counts.steps == 0) return {SetDamping{*options_.initial * scales_.damping()}};
-  problem::VelocityNorms velocity = view.diagnostics.velocity;
+  measure::VelocityNorms velocity = view.diagnostics.velocity;
   velocity.normal /= scales_.velocity_norm();
   velocity.tangential /= scales_.velocity_norm();
   const double alpha = view.state.damping / scales_.damping();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int lasting_steps = 3;
 
-int count(const std::vector<problem::PhaseDomain>& domains, int phase, double smallest_area) {
+int count(const std::vector<measure::PhaseDomain>& domains, int phase, double smallest_area) {
   return static_cast<int>(std::count_if(domains.begin(), domains.end(), [&](const auto& domain) {
     return domain.phase == phase && domain.area >= smallest_area;
   }));

@@ -23,14 +23,14 @@ struct Closing {
 };
 
 /// Shares of phase 1 in the areas of the smaller and the larger side.
-Eigen::Array2d shares_of_phase_1(const mesh::Neck& neck, const problem::State& state) {
+Eigen::Array2d shares_of_phase_1(const measure::Neck& neck, const problem::State& state) {
   const Eigen::VectorXd is_phase_1 =
       (state.values.order_parameter.array() > 0).matrix().cast<double>();
   const Eigen::Array2d areas(neck.smaller_area, neck.larger_area);
   return (neck.side_areas.transpose() * is_phase_1).array() / areas;
 }
 
-Closing closing(const mesh::Neck& neck, const problem::State& state) {
+Closing closing(const measure::Neck& neck, const problem::State& state) {
   if (!neck.separates)
     return {RunStatus::neck_closes, "a neck closes that does not cut the surface in two"};
   if (!state.is_two_phase()) return {RunStatus::neck_closes, "a neck closes"};
@@ -71,8 +71,8 @@ std::vector<Request> NeckController::stop_if_closing(const StepView& view) const
 }
 
 void NeckController::look(const StepView& view) {
-  neck_ =
-      mesh::find_neck(view.state.surface(), 2 * std::numbers::pi * looked_for_radius * width(view));
+  neck_ = measure::find_neck(view.state.surface(),
+                             2 * std::numbers::pi * looked_for_radius * width(view));
   if (!neck_) {
     radii_.clear();
     return;

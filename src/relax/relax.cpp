@@ -103,7 +103,7 @@ class Run {
   }
 
   void measure() {
-    diagnostics_ = problem::measure(model_, state());
+    diagnostics_ = measure::measure(model_, state());
     if (const auto energy = stepper_.current->energy()) diagnostics_.energy = *energy;
     outcome_.smallest_quality = std::min(outcome_.smallest_quality, diagnostics_.quality);
   }
@@ -263,7 +263,7 @@ class Run {
   solve::SolverCounts earlier_counts_;    // of steppers on earlier meshes
   solve::SolverSeconds earlier_seconds_;  // and of controllers
   double step_size_ = 0;                  // of the last step, or with which the stepper begins
-  problem::Diagnostics diagnostics_;
+  measure::Diagnostics diagnostics_;
   Outcome outcome_;
 };
 

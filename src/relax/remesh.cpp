@@ -5,15 +5,15 @@
 #include <utility>
 #include <variant>
 
-#include "vesica/adapt/bisection.hpp"
-#include "vesica/adapt/conformal_remesh.hpp"
 #include "vesica/adapt/local_remesh.hpp"
 #include "vesica/adapt/transfer.hpp"
 #include "vesica/fem/node_graph.hpp"
 #include "vesica/fem/recovery.hpp"
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/mesh/quality.hpp"
 #include "vesica/model/two_phase.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/paper/bisection.hpp"
+#include "vesica/paper/conformal_remesh.hpp"
 
 namespace vesica::relax {
 namespace {
@@ -51,7 +51,7 @@ problem::Fields carried_over(const mesh::Triangulation& old,
 
 /// V, A and, with two phases, int h(c).
 Eigen::VectorXd integrals_of(const problem::State& state) {
-  const auto measured = problem::measure({{}, state.is_two_phase(), {}}, state);
+  const auto measured = measure::measure({{}, state.is_two_phase(), {}}, state);
   Eigen::VectorXd integrals(state.is_two_phase() ? 3 : 2);
   integrals.head<2>() << measured.volume, measured.area;
   if (state.is_two_phase()) integrals[2] = *measured.phase_difference;
@@ -108,14 +108,14 @@ struct Mesher {
     return changed;
   }
   std::optional<adapt::Remeshed> operator()(const BisectionPlan& plan) const {
-    adapt::Bisected bisected =
-        adapt::bisect(state.surface(), wanted_marks(model, state, plan.marking, max_nodes));
+    paper::Bisected bisected =
+        paper::bisect(state.surface(), wanted_marks(model, state, plan.marking, max_nodes));
     if (!bisected.is_changed()) return std::nullopt;
     return std::move(bisected.mesh);
   }
   std::optional<adapt::Remeshed> operator()(const ConformalPlan& plan) const {
     auto image =
-        adapt::conformal_remesh(state.surface(), shape_operator_of(state), phases_of(model, state),
+        paper::conformal_remesh(state.surface(), shape_operator_of(state), phases_of(model, state),
                                 plan.otherwise.marking, max_nodes);
     if (image && is_usable(image->surface) &&
         quality_of(image->surface) > quality_of(state.surface())) {
@@ -132,7 +132,7 @@ problem::State prepared(const problem::State& state, const MeshPlan& plan) {
   const auto* bisection =
       conformal != nullptr ? &conformal->otherwise : std::get_if<BisectionPlan>(&plan);
   if (bisection != nullptr && bisection->is_first)
-    result.triangulation = adapt::with_longest_sides_first(state.surface()).triangulation;
+    result.triangulation = paper::with_longest_sides_first(state.surface()).triangulation;
   return result;
 }
 
@@ -187,12 +187,12 @@ Eigen::VectorXd wanted_sizes(const model::Model& model, const problem::State& st
   return adapt::limited_sizes(surface, finest(sizes_of, is_within, largest_growth), max_nodes);
 }
 
-std::vector<adapt::Mark> wanted_marks(const model::Model& model, const problem::State& state,
-                                      const adapt::BisectionOptions& marking, double max_nodes) {
+std::vector<paper::Mark> wanted_marks(const model::Model& model, const problem::State& state,
+                                      const paper::BisectionOptions& marking, double max_nodes) {
   const mesh::Surface surface = state.surface();
-  return adapt::marks(
+  return paper::marks(
       surface,
-      adapt::wanted_diameters(surface, shape_operator_of(state), phases_of(model, state), marking),
+      paper::wanted_diameters(surface, shape_operator_of(state), phases_of(model, state), marking),
       max_nodes);
 }
 

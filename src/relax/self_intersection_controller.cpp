@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "vesica/mesh/self_intersection.hpp"
+#include "vesica/measure/self_intersection.hpp"
 
 namespace vesica::relax {
 
@@ -22,7 +22,7 @@ std::vector<Request> SelfIntersectionController::respond_to_limit(const StepView
 }
 
 std::vector<Request> SelfIntersectionController::look(const StepView& view) {
-  const auto first = mesh::self_intersections(view.state.surface(), 1);
+  const auto first = measure::self_intersections(view.state.surface(), 1);
   if (first.empty()) {
     last_free_step_ = view.report.counts.steps;
     return {};

@@ -12,14 +12,14 @@ namespace vesica::relax {
 namespace {
 
 /// Multipliers in k/R_c^3 (volume) and k/R_c^2 (area, phase), so that they can be compared.
-std::array<double, 3> in_natural_units(const problem::PerConstraint& multipliers, double radius,
+std::array<double, 3> in_natural_units(const model::PerConstraint& multipliers, double radius,
                                        double rigidity) {
   const double unit = rigidity / (radius * radius);
   return {multipliers.volume.value_or(0) * radius / unit, multipliers.area.value_or(0) / unit,
           multipliers.phase.value_or(0) / unit};
 }
 
-double characteristic_radius(const problem::Diagnostics& diagnostics) {
+double characteristic_radius(const measure::Diagnostics& diagnostics) {
   return std::sqrt(diagnostics.area / (4 * std::numbers::pi));
 }
 
@@ -51,11 +51,11 @@ bool Stationarity::meets_velocity(const StepView& view) const {
   return normal_velocity(view.diagnostics) < options_.normal_velocity;
 }
 
-double Stationarity::normal_velocity(const problem::Diagnostics& diagnostics) {
+double Stationarity::normal_velocity(const measure::Diagnostics& diagnostics) {
   return diagnostics.velocity.normal_rigid_free / characteristic_radius(diagnostics);
 }
 
-bool Stationarity::meets_constraints(const problem::Diagnostics& diagnostics) const {
+bool Stationarity::meets_constraints(const measure::Diagnostics& diagnostics) const {
   const auto errors = diagnostics.constraint_errors.in_order();
   return std::all_of(errors.begin(), errors.end(), [&](const auto& error) {
     return std::abs(error.value_or(0)) < options_.constraint;

@@ -67,14 +67,14 @@ Result run(const test::RelaxationCase& cigar, const solve::SolverOptions& option
            relax::DampingKind damping_kind, long max_steps) {
   Result result;
   const auto stepper =
-      timed(result.seconds, [&] { return solve::make_stepper(options, cigar.model, cigar.start); });
+      timed(result.seconds, [&] { return run::make_stepper(options, cigar.model, cigar.start); });
   relax::DampingOptions damping_options;
   damping_options.kind = damping_kind;
   relax::DampingController damping(damping_options, problem::scales_of(cigar.model, cigar.start));
   const auto& state = stepper->state();
   solve::StepReport report;
   while (true) {
-    const auto diagnostics = problem::measure(cigar.model, state);
+    const auto diagnostics = measure::measure(cigar.model, state);
     for (const auto& request : damping.respond({state, report, diagnostics}))
       stepper->set_damping(std::get<relax::SetDamping>(request).alpha);
     if (state.time >= end_time || report.counts.steps >= max_steps) break;
@@ -87,7 +87,7 @@ Result run(const test::RelaxationCase& cigar, const solve::SolverOptions& option
   result.is_extrapolated = state.time < end_time;
   if (!result.is_extrapolated) {
     report = timed(result.seconds, [&] { return stepper->finish(); });
-    result.energy = problem::measure(cigar.model, state).energy.total();
+    result.energy = measure::measure(cigar.model, state).energy.total();
   }
   const double factor = result.is_extrapolated ? end_time / state.time : 1;
   result.seconds = result.seconds * factor;
@@ -137,7 +137,7 @@ Sample sample(const test::RelaxationCase& cigar, const solve::SolverOptions& opt
   Sample result;
   const auto state =
       timed(result.seconds, [&] { return test::state_at(cigar, options, comparison_time, 1); });
-  result.energy = problem::measure(cigar.model, state).energy.total();
+  result.energy = measure::measure(cigar.model, state).energy.total();
   return result;
 }
 

@@ -127,7 +127,7 @@ void time_kernels(int resolution, Table& table) {
               (void)fem::recover_shape_operator(triangulation, graph, c.start.values.positions, 0);
             }));
   const problem::RelaxationProblem problem(c.start.triangulation, c.model, 0);
-  const auto state = solve::make_stepper({}, c.model, c.start)->state();
+  const auto state = run::make_stepper({}, c.model, c.start)->state();
   const auto y = problem.layout().pack(state.values);
   const auto rates = problem.layout().pack(state.rates);
   const problem::EquationSettings settings;

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 #ifdef __AVX__
 #error "the consumer is to be compiled for the base instruction set"
@@ -20,10 +20,10 @@ static_assert(EIGEN_DEFAULT_ALIGN_BYTES == 64 && EIGEN_MAX_STATIC_ALIGN_BYTES ==
 
 int main() {
   for (int resolution = 1; resolution <= 8; ++resolution) {
-    vesica::mesh::ShapeOptions options;
+    vesica::shapes::ShapeOptions options;
     options.kind = vesica::mesh::ShapeKind::sphere;
     options.resolution = resolution;
-    vesica::mesh::Surface surface = vesica::mesh::make_shape(options);
+    vesica::mesh::Surface surface = vesica::shapes::make_shape(options);
     const Eigen::Index num_nodes = surface.positions.rows();
     surface.positions.conservativeResize(3 * num_nodes + 1, 3);
     surface.positions.conservativeResize(num_nodes, 3);

@@ -10,11 +10,11 @@
 
 int main() {
   using namespace vesica;
-  mesh::ShapeOptions shape;
-  shape.kind = mesh::ShapeKind::ellipsoid;
+  shapes::ShapeOptions shape;
+  shape.kind = shapes::ShapeKind::ellipsoid;
   shape.semi_axes = {1.4, 0.83, 0.83};
   shape.resolution = 3;
-  const auto surface = mesh::make_shape(shape);
+  const auto surface = shapes::make_shape(shape);
 
   model::Model model;
   model.is_two_phase = false;
@@ -24,7 +24,7 @@ int main() {
   problem::State start;
   start.triangulation = surface.triangulation;
   start.values.positions = surface.positions;
-  const auto stepper = solve::make_stepper({}, model, start);
+  const auto stepper = run::make_stepper({}, model, start);
 
   relax::DampingController damping({}, problem::scales_of(model, start));
   const std::array<relax::Controller*, 1> controllers{&damping};

@@ -8,7 +8,7 @@
 #include "nodal_shape_operators.hpp"
 #include "observed_order.hpp"
 #include "relaxation_cases.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/problem/relaxation_problem.hpp"
 
 namespace vesica {
@@ -67,11 +67,11 @@ TEST(RecoveredShapeOperator, ConvergesOnSphereEllipsoidAndTorus) {
   });
   const auto torus = errors(
       [](int resolution) {
-        mesh::ShapeOptions shape;
-        shape.kind = mesh::ShapeKind::torus;
+        shapes::ShapeOptions shape;
+        shape.kind = shapes::ShapeKind::torus;
         shape.minor_radius = 0.4;
         shape.resolution = resolution;
-        return test::shape_operator_error(mesh::make_shape(shape), [](const Eigen::Vector3d& x) {
+        return test::shape_operator_error(shapes::make_shape(shape), [](const Eigen::Vector3d& x) {
           return test::torus_shape_operator(x, 1);
         });
       },
@@ -85,7 +85,7 @@ TEST(RecoveredShapeOperator, ConvergesOnSphereEllipsoidAndTorus) {
 problem::State consistent_start(const mesh::Surface& surface) {
   auto c = test::single_phase_case(surface, 1, 1);
   c.model.targets = {};
-  return solve::make_stepper({}, c.model, c.start)->state();
+  return run::make_stepper({}, c.model, c.start)->state();
 }
 
 /// Root mean square over the nodes of kappa + tr Q.
@@ -117,7 +117,7 @@ TEST(BendingEnergy, OfTheSphereTendsToEightPiTimesTheRigidity) {
   const auto energy = errors([](int resolution) {
     const auto state = consistent_start(test::make_sphere(resolution));
     const auto c = test::single_phase_case({state.triangulation, state.values.positions}, 1, 1);
-    return problem::measure(c.model, state).energy.bending - 8 * pi;
+    return measure::measure(c.model, state).energy.bending - 8 * pi;
   });
   EXPECT_GT(energy.order(), 3.7);  // measured 3.94
 }

@@ -75,7 +75,7 @@ mesh::Positions positions_at(double end_time, double rtol) {
   solve::SolverOptions options;
   options.rtol = rtol;
   const auto c = test::table_1_case(2);
-  const auto stepper = solve::make_stepper(options, c.model, c.start);
+  const auto stepper = run::make_stepper(options, c.model, c.start);
   while (stepper->state().time < end_time) {
     const auto report = stepper->step(end_time);
     if (report.status == solve::StepStatus::failed) throw SolverError(report.reason);

@@ -75,8 +75,8 @@ TEST(SemiImplicitOrder, IsOneWithTangentialFields) {
   expect_first_order(coarse.volume_multiplier, fine.volume_multiplier);
   EXPECT_LT(fine.positions, 0.6 * coarse.positions);
   const auto ida = test::state_at(cigar, accurate_ida(), end_time, alpha);
-  EXPECT_NEAR(problem::measure(cigar.model, states[2]).energy.total(),
-              problem::measure(cigar.model, ida).energy.total(), 5e-3);
+  EXPECT_NEAR(measure::measure(cigar.model, states[2]).energy.total(),
+              measure::measure(cigar.model, ida).energy.total(), 5e-3);
 }
 
 }  // namespace

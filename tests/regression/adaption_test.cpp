@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "relaxation_cases.hpp"
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
 #include "vesica/relax/make_mesh_controller.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica {
 namespace {
@@ -19,15 +19,15 @@ namespace {
 test::RelaxationResult run_adaptively(const std::string& name, std::vector<std::string> overrides) {
   overrides.emplace_back("adaption.enabled=true");
   const auto config =
-      io::read_config(std::string(VESICA_CASES_DIR) + "/" + name + ".toml", overrides);
-  const auto vesicle = io::make_case(config);
+      config::read_config(std::string(VESICA_CASES_DIR) + "/" + name + ".toml", overrides);
+  const auto vesicle = setup::make_case(config);
   const auto scales = problem::scales_of(vesicle.model, vesicle.start);
-  auto stepper = solve::make_stepper(config.solver, vesicle.model, vesicle.start);
+  auto stepper = run::make_stepper(config.solver, vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
   const auto mesh = relax::make_mesh_controller(config.adaption, vesicle.model, scales);
   const std::array<relax::Controller*, 2> controllers{&damping, mesh.get()};
   const auto restart = [&](problem::State start, const solve::Restart& how) {
-    return solve::restart_stepper(config.solver, vesicle.model, std::move(start), how);
+    return run::restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };
   auto outcome = relax::relax(stepper, restart, vesicle.model, config.stop, {}, controllers);
   return {std::move(outcome), stepper->state()};

@@ -86,7 +86,7 @@ TEST(SinglePhaseRegression, ReachesTheProlateWith2562Nodes) { expect_prolate(8, 
 /// (only lambda_V + 2 lambda_A / R is determined) and vanish with one.
 void expect_sphere_at_rest(bool holds_volume, bool holds_area) {
   auto c = test::single_phase_case(test::make_sphere(3), 1, 1);
-  const auto start = problem::measure(c.model, c.start);
+  const auto start = measure::measure(c.model, c.start);
   c.model.targets = {};
   if (holds_volume) c.model.targets.volume = model::Schedule(start.volume);
   if (holds_area) c.model.targets.area = model::Schedule(start.area);

@@ -50,7 +50,7 @@ void run_as_the_paper(int resolution, double end_time, PaperRun& run) {
   const auto cigar = test::table_1_case(resolution);
   solve::SolverOptions options;
   options.method = solve::Method::semi_implicit;
-  const auto stepper = solve::make_stepper(options, cigar.model, cigar.start);
+  const auto stepper = run::make_stepper(options, cigar.model, cigar.start);
   relax::DampingOptions paper;
   paper.kind = relax::DampingKind::paper;
   relax::DampingController damping(paper, problem::scales_of(cigar.model, cigar.start));

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "relaxation_cases.hpp"
-#include "vesica/problem/diagnostics.hpp"
-#include "vesica/solve/make_stepper.hpp"
+#include "vesica/measure/diagnostics.hpp"
+#include "vesica/run/make_stepper.hpp"
 
 namespace vesica::test {
 
@@ -21,7 +21,7 @@ inline solve::SolverOptions semi_implicit_options(double tau, bool tangential_fi
 /// start, so that trajectories of different methods can be compared from t = 0 on.
 inline RelaxationCase undisturbed_cigar(int resolution) {
   auto result = table_1_case(resolution);
-  const auto measured = problem::measure(result.model, result.start);
+  const auto measured = measure::measure(result.model, result.start);
   result.model.targets.volume = model::Schedule(measured.volume);
   result.model.targets.area = model::Schedule(measured.area);
   return result;
@@ -30,7 +30,7 @@ inline RelaxationCase undisturbed_cigar(int resolution) {
 /// State at `end_time` with the damping held at `alpha`; ends early when a step fails.
 inline problem::State state_at(const RelaxationCase& start, const solve::SolverOptions& options,
                                double end_time, double alpha) {
-  const auto stepper = solve::make_stepper(options, start.model, start.start);
+  const auto stepper = run::make_stepper(options, start.model, start.start);
   stepper->set_damping(alpha);
   while (stepper->state().time < end_time) {
     if (stepper->step(end_time).status == solve::StepStatus::failed) break;

@@ -6,14 +6,14 @@
 #include <span>
 #include <utility>
 
-#include "vesica/mesh/shapes.hpp"
 #include "vesica/model/model.hpp"
-#include "vesica/problem/initial_phase.hpp"
+#include "vesica/phase/initial_phase.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/problem/state.hpp"
 #include "vesica/relax/damping_controller.hpp"
 #include "vesica/relax/relax.hpp"
-#include "vesica/solve/make_stepper.hpp"
+#include "vesica/run/make_stepper.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::test {
 
@@ -48,9 +48,9 @@ inline problem::State start_on(const mesh::Surface& surface) {
 
 /// The paper's cigar with m = `resolution`, N = 72 m^2 + 2 nodes, and the ramp (4.1) of phases.
 inline RelaxationCase table_1_case(int resolution) {
-  mesh::ShapeOptions shape;
+  shapes::ShapeOptions shape;
   shape.resolution = resolution;
-  const auto surface = mesh::make_shape(shape);
+  const auto surface = shapes::make_shape(shape);
   RelaxationCase result;
   auto& material = result.model.material;
   material.bending_rigidity = {1.5, 1};
@@ -60,7 +60,7 @@ inline RelaxationCase table_1_case(int resolution) {
   const double pi = std::numbers::pi;
   result.model.targets = {11 * pi / 12, 4 * pi, 4.71};
   result.start = start_on(surface);
-  result.start.values.order_parameter = problem::initial_phase({}, surface, 0.3, 4.71);
+  result.start.values.order_parameter = phase::initial_phase({}, surface, 0.3, 4.71);
   return result;
 }
 
@@ -74,19 +74,19 @@ inline RelaxationCase single_phase_case(const mesh::Surface& surface, double vol
 }
 
 inline mesh::Surface make_sphere(int resolution, double radius = 1) {
-  mesh::ShapeOptions shape;
-  shape.kind = mesh::ShapeKind::sphere;
+  shapes::ShapeOptions shape;
+  shape.kind = shapes::ShapeKind::sphere;
   shape.resolution = resolution;
   shape.radius = radius;
-  return mesh::make_shape(shape);
+  return shapes::make_shape(shape);
 }
 
 inline mesh::Surface make_ellipsoid(const Eigen::Vector3d& semi_axes, int resolution) {
-  mesh::ShapeOptions shape;
-  shape.kind = mesh::ShapeKind::ellipsoid;
+  shapes::ShapeOptions shape;
+  shape.kind = shapes::ShapeKind::ellipsoid;
   shape.semi_axes = semi_axes;
   shape.resolution = resolution;
-  return mesh::make_shape(shape);
+  return shapes::make_shape(shape);
 }
 
 /// Relaxes a case with the default damping.
@@ -94,7 +94,7 @@ inline RelaxationResult run_case(const RelaxationCase& start,
                                  const solve::SolverOptions& options = {},
                                  const relax::StopOptions& stop = {},
                                  std::span<relax::Observer* const> observers = {}) {
-  const auto stepper = solve::make_stepper(options, start.model, start.start);
+  const auto stepper = run::make_stepper(options, start.model, start.start);
   relax::DampingController damping({}, problem::scales_of(start.model, start.start));
   const std::array<relax::Controller*, 1> controllers{&damping};
   auto outcome = relax::relax(*stepper, start.model, stop, observers, controllers);

@@ -3,27 +3,20 @@
 #include <filesystem>
 #include <vector>
 
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
-#include "vesica/io/verdict.hpp"
+#include "vesica/compare/comparison.hpp"
+#include "vesica/config/config.hpp"
+#include "vesica/relax/verdict.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica::io {
 
-/// How the energy fell; one value a step, the start included. The single energy of a run whose
-/// initial values could not be made consistent is NaN.
-struct EnergyHistory {
-  std::vector<double> step;
-  std::vector<double> seconds;  ///< wall clock, since the start of the run
-  std::vector<double> energy;   ///< total [energy]
-};
-
 /// What a run leaves in its folder.
 struct FinishedRun {
-  RunConfig config;
+  config::RunConfig config;
   model::Model model;
-  problem::State state;  ///< the final one; rates of the positions alone
-  Verdict verdict;       ///< with the numbers of `verdict.json`
-  EnergyHistory history;
+  problem::State state;    ///< the final one; rates of the positions alone
+  relax::Verdict verdict;  ///< with the numbers of `verdict.json`
+  compare::EnergyHistory history;
 };
 
 /// Reads a run that has ended back from `case.toml`, `trajectory.h5` and `verdict.json`. Throws
@@ -36,9 +29,10 @@ struct FinishedRun {
 /// is complete. Time goes on. "initial" is the start of the first run of such a chain. Throws what
 /// read_run throws, and ConfigError when a run is writing to the folder or when one has a phase
 /// field and the other not.
-[[nodiscard]] Case resumed_case(const RunConfig& config, const std::filesystem::path& folder);
+[[nodiscard]] setup::Case resumed_case(const config::RunConfig& config,
+                                       const std::filesystem::path& folder);
 
 /// The energy history of a run that has ended. Throws IoError.
-[[nodiscard]] EnergyHistory read_history(const std::filesystem::path& folder);
+[[nodiscard]] compare::EnergyHistory read_history(const std::filesystem::path& folder);
 
 }  // namespace vesica::io

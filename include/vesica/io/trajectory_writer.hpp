@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "vesica/io/case.hpp"
-#include "vesica/io/config.hpp"
+#include "vesica/config/config.hpp"
 #include "vesica/relax/observer.hpp"
+#include "vesica/setup/case.hpp"
 
 namespace vesica::io {
 
@@ -18,7 +18,8 @@ class TrajectoryWriter final : public relax::Observer {
  public:
   /// Makes `trajectory.part.h5` in `folder`, which exists, and holds its FolderLock. Throws
   /// IoError, and ConfigError when a run is writing there.
-  TrajectoryWriter(std::filesystem::path folder, const RunConfig& config, const Case& vesicle);
+  TrajectoryWriter(std::filesystem::path folder, const config::RunConfig& config,
+                   const setup::Case& vesicle);
   ~TrajectoryWriter() override;
 
   /// A row of the time series; a frame for step 0 and every `output.every_steps` steps. Throws
@@ -43,7 +44,7 @@ class TrajectoryWriter final : public relax::Observer {
 /// The outcome of a run whose stepper could not be made: a numerical failure with energies and
 /// velocities NaN. Makes the run folder and a trajectory with the start as its only frame
 /// (curvature zero). Throws IoError.
-[[nodiscard]] relax::Outcome record_failed_start(const RunConfig& config, const Case& vesicle,
-                                                 std::string reason);
+[[nodiscard]] relax::Outcome record_failed_start(const config::RunConfig& config,
+                                                 const setup::Case& vesicle, std::string reason);
 
 }  // namespace vesica::io

@@ -6,7 +6,7 @@
 
 #include "vesica/fem/node_graph.hpp"
 #include "vesica/model/model.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/model/per_term.hpp"
 #include "vesica/problem/flow_problem.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -64,7 +64,7 @@ class EnergyProblem {
   /// Fields with p at its maximum.
   [[nodiscard]] EnergyFields fields(const mesh::Positions& positions,
                                     const Eigen::VectorXd& order_parameter, double time = 0) const;
-  [[nodiscard]] EnergyParts energy(const EnergyFields& fields) const;
+  [[nodiscard]] model::EnergyParts energy(const EnergyFields& fields) const;
   /// kappa = kappa_s - p . nu / k_kappa at the nodes, shape (N) [1/length].
   [[nodiscard]] Eigen::VectorXd mean_curvature(const EnergyFields& fields) const;
   /// Derivative of E_h + sum lambda_i C_i with respect to the nodal values of x, p and c. With

@@ -5,7 +5,7 @@
 
 #include "vesica/linalg/bordered_solver.hpp"
 #include "vesica/model/model.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/model/per_term.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -58,7 +58,8 @@ class FlowProblem {
   /// Natural size of each unknown; errors are measured in it.
   [[nodiscard]] virtual Eigen::VectorXd units(const Scales& scales) const = 0;
   /// Energy of the discretisation with the material at a time, where it has one of its own.
-  [[nodiscard]] virtual std::optional<EnergyParts> energy(double, const Eigen::VectorXd&) const {
+  [[nodiscard]] virtual std::optional<model::EnergyParts> energy(double,
+                                                                 const Eigen::VectorXd&) const {
     return std::nullopt;
   }
 

@@ -1,30 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
-#include <optional>
 
 #include "vesica/mesh/triangulation.hpp"
+#include "vesica/model/per_term.hpp"
 
 namespace vesica::problem {
-
-/// One value for each constraint; a constraint that is left free has none.
-/// Multipliers: volume [energy/length^3], area and phase [energy/length^2], signs as in (1.7a):
-/// dF/dV = -volume.
-struct PerConstraint {
-  std::optional<double> volume;
-  std::optional<double> area;
-  std::optional<double> phase;
-
-  /// The same in the order of model::Constraints, and back.
-  [[nodiscard]] std::array<std::optional<double>, 3> in_order() const {
-    return {volume, area, phase};
-  }
-  [[nodiscard]] static PerConstraint from(const std::array<std::optional<double>, 3>& values) {
-    return {values[0], values[1], values[2]};
-  }
-};
 
 /// Nodal fields and multipliers, or their time derivatives.
 struct Fields {
@@ -33,7 +15,7 @@ struct Fields {
       mean_curvature;  ///< kappa = kappa_1 + kappa_2, -2/R on a sphere, shape (N) [1/length]
   Eigen::VectorXd
       order_parameter;  ///< c, +1 in phase 1, shape (N), or (0) for a single-phase vesicle [-]
-  PerConstraint multipliers;
+  model::PerConstraint multipliers;
 };
 
 /// State of a vesicle at one time. A stepper owns it, everyone else borrows it const.

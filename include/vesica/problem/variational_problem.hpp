@@ -42,8 +42,8 @@ class VariationalProblem final : public FlowProblem {
                              const Eigen::VectorXd& y_rate) const override;
   [[nodiscard]] Eigen::VectorXd differential_mask() const override;
   [[nodiscard]] Eigen::VectorXd units(const Scales& scales) const override;
-  [[nodiscard]] std::optional<EnergyParts> energy(double time,
-                                                  const Eigen::VectorXd& y) const override;
+  [[nodiscard]] std::optional<model::EnergyParts> energy(double time,
+                                                         const Eigen::VectorXd& y) const override;
   [[nodiscard]] Eigen::VectorXd residual(const EquationSettings& settings, double time,
                                          const Eigen::VectorXd& y,
                                          const Eigen::VectorXd& y_rate) const override;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "vesica/adapt/bisection.hpp"
 #include "vesica/model/model.hpp"
+#include "vesica/paper/bisection.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/relax/controller.hpp"
 #include "vesica/relax/mesh_controller.hpp"
@@ -31,7 +31,7 @@ class BisectionController final : public Controller {
   [[nodiscard]] std::vector<Request> respond_to_rest(const StepView& view) override;
 
  private:
-  [[nodiscard]] adapt::BisectionOptions marking() const;
+  [[nodiscard]] paper::BisectionOptions marking() const;
   [[nodiscard]] BisectionPlan bisection(const StepView& view) const;
   [[nodiscard]] std::vector<Request> ask(const StepView& view, MeshPlan plan, std::string reason);
   [[nodiscard]] std::vector<Request> ask_for_bisection(const StepView& view, std::string reason);

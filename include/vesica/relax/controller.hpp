@@ -4,8 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "vesica/adapt/bisection.hpp"
 #include "vesica/adapt/size_field.hpp"
+#include "vesica/paper/bisection.hpp"
 #include "vesica/relax/observer.hpp"
 
 namespace vesica::relax {
@@ -22,13 +22,13 @@ struct Stop {
   int signal = 0;
 };
 
-/// One round of bisection and coarsening, adapt::bisect.
+/// One round of bisection and coarsening, paper::bisect.
 struct BisectionPlan {
-  adapt::BisectionOptions marking;
+  paper::BisectionOptions marking;
   bool is_first = false;  ///< the present mesh was not made by bisection
 };
 
-/// The conformal image of a sphere mesh, adapt::conformal_remesh; where its quality is no better
+/// The conformal image of a sphere mesh, paper::conformal_remesh; where its quality is no better
 /// than that of the present mesh, the bisection.
 struct ConformalPlan {
   BisectionPlan otherwise;

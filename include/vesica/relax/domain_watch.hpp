@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "vesica/measure/phase_domains.hpp"
 #include "vesica/model/schedule.hpp"
-#include "vesica/problem/phase_domains.hpp"
 #include "vesica/relax/observer.hpp"
 
 namespace vesica::relax {

@@ -33,7 +33,7 @@ struct EnumNames<relax::MeshMethod> {
 namespace vesica::relax {
 
 /// Changes of the mesh during a run; sizes as in adapt::SizeFieldOptions and
-/// adapt::BisectionOptions. Each method reads its own keys, `max_size` and `max_nodes`.
+/// paper::BisectionOptions. Each method reads its own keys, `max_size` and `max_nodes`.
 struct AdaptionOptions {
   bool enabled = false;
   MeshMethod method = MeshMethod::local;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vesica/mesh/neck.hpp"
+#include "vesica/measure/neck.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/relax/controller.hpp"
@@ -13,7 +13,7 @@ namespace vesica::relax {
 
 /// Ends a run in which a neck closes: the surface is about to change its topology, which no step
 /// can follow. With the length w = interface width, 0.2 R_c for a single phase, and the radius r =
-/// length / 2 pi of the shortest neck (mesh::find_neck):
+/// length / 2 pi of the shortest neck (measure::find_neck):
 ///
 ///     r < 0.15 w, or
 ///     r < 0.25 w when a step fails, a limit is hit, or after 100 steps in a row,
@@ -42,7 +42,7 @@ class NeckController final : public Controller {
 
   model::Schedule width_;
   problem::Scales scales_;
-  std::optional<mesh::Neck> neck_;
+  std::optional<measure::Neck> neck_;
   std::deque<double> radii_;  // of the last steps with a neck, the last one included
   int thin_steps_ = 0;        // in a row
 };

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/problem/state.hpp"
 #include "vesica/solve/stepper.hpp"
 
@@ -13,7 +13,7 @@ namespace vesica::relax {
 struct StepView {
   const problem::State& state;
   const solve::StepReport& report;
-  const problem::Diagnostics& diagnostics;
+  const measure::Diagnostics& diagnostics;
 };
 
 /// Something worth a line in the log: a change of the mesh, of the number of phase domains.
@@ -34,7 +34,8 @@ struct MeshChange {
   std::string reason;  ///< what follows "because"
 };
 
-/// Why a run ended. The numbers are not the exit status; `exit_status` in io/verdict.hpp maps them.
+/// Why a run ended. The numbers are not the exit status; `exit_status` in relax/verdict.hpp maps
+/// them.
 enum class RunStatus {
   converged,
   end_time,
@@ -53,7 +54,7 @@ struct Outcome {
   RunStatus status = RunStatus::converged;
   std::string reason;  ///< one sentence
   int signal = 0;      ///< the signal that interrupted the run, 0 for none
-  problem::Diagnostics diagnostics;
+  measure::Diagnostics diagnostics;
   solve::StepReport report;
   double smallest_quality = 0;  ///< smallest mesh quality over the run
   double initial_quality = 0;

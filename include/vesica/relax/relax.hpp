@@ -8,7 +8,6 @@
 #include "vesica/relax/controller.hpp"
 #include "vesica/relax/observer.hpp"
 #include "vesica/relax/stationarity.hpp"
-#include "vesica/solve/make_stepper.hpp"
 #include "vesica/solve/stepper.hpp"
 
 namespace vesica::relax {

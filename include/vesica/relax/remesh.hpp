@@ -17,10 +17,10 @@ namespace vesica::relax {
                                            const adapt::SizeFieldOptions& options,
                                            double max_nodes);
 
-/// What bisection would do with each triangle of the state, adapt::marks.
-[[nodiscard]] std::vector<adapt::Mark> wanted_marks(const model::Model& model,
+/// What bisection would do with each triangle of the state, paper::marks.
+[[nodiscard]] std::vector<paper::Mark> wanted_marks(const model::Model& model,
                                                     const problem::State& state,
-                                                    const adapt::BisectionOptions& marking,
+                                                    const paper::BisectionOptions& marking,
                                                     double max_nodes);
 
 /// The state on a new mesh of the same surface: positions, order parameter, curvature and rates

@@ -9,7 +9,7 @@ namespace vesica::relax {
 
 /// Ends a run in which the surface cuts itself (RunStatus::self_intersection), which no energy of
 /// the model forbids. Looks every `every_steps` steps, the start included, and before the run ends
-/// in an equilibrium or at a limit (mesh::self_intersections).
+/// in an equilibrium or at a limit (measure::self_intersections).
 class SelfIntersectionController final : public Controller {
  public:
   /// With the `every_steps` of the frames, the last frame before the end shows no intersection.

@@ -73,10 +73,10 @@ class Stationarity {
   /// After a change of the mesh: the multipliers have to rest anew.
   void forget_steps();
   /// ||v_nu|| / R_c, best-fit rigid motion removed [length/time].
-  [[nodiscard]] static double normal_velocity(const problem::Diagnostics& diagnostics);
+  [[nodiscard]] static double normal_velocity(const measure::Diagnostics& diagnostics);
   /// Velocity, or for a method that reports it the distance to the minimum.
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
-  [[nodiscard]] bool meets_constraints(const problem::Diagnostics& diagnostics) const;
+  [[nodiscard]] bool meets_constraints(const measure::Diagnostics& diagnostics) const;
   /// The limit that is reached, if any.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
 
@@ -86,7 +86,7 @@ class Stationarity {
   StopOptions options_;
   const model::Model& model_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<problem::PerConstraint> last_multipliers_;
+  std::optional<model::PerConstraint> last_multipliers_;
   int steps_at_rest_ = 0;
   long last_newton_ = 0;
   int steps_without_newton_ = 0;

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/model/model.hpp"
-#include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/state.hpp"
 #include "vesica/solve/solver_options.hpp"
 #include "vesica/solve/stepper.hpp"
@@ -14,7 +14,7 @@ namespace vesica::solve {
 /// An equilibrium of the discrete energy E_h (problem::EnergyProblem).
 struct Equilibrium {
   problem::State state;
-  problem::EnergyParts energy;
+  model::EnergyParts energy;
   PolishReport report;
   SolverCounts counts;
   SolverSeconds seconds;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/model/per_term.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::solve {
@@ -92,8 +92,8 @@ class Stepper {
 
   [[nodiscard]] virtual const problem::State& state() const = 0;
   /// Energy of the state where the method has a discrete energy of its own, in place of the one
-  /// that problem::measure() integrates.
-  [[nodiscard]] virtual std::optional<problem::EnergyParts> energy() const { return std::nullopt; }
+  /// that measure::measure() integrates.
+  [[nodiscard]] virtual std::optional<model::EnergyParts> energy() const { return std::nullopt; }
   /// One step, not beyond `end_time`. Numerical trouble is a status, not an exception.
   virtual StepReport step(double end_time) = 0;
   /// Takes the constraints of an almost resting state to round-off, and with `polish` the state to
@@ -101,6 +101,11 @@ class Stepper {
   virtual StepReport finish() = 0;
   /// Tangential damping alpha of equation (b) from the next step on [length^2/energy].
   virtual void set_damping(double alpha) = 0;
+};
+
+/// How a run goes on from a state that was already in motion, for example on a new mesh.
+struct Restart {
+  double initial_step = 0;  ///< first step [time]; 0: chosen by the integrator
 };
 
 }  // namespace vesica::solve

@@ -13,8 +13,8 @@
 #include "observed_order.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/mesh/quality.hpp"
-#include "vesica/mesh/shapes.hpp"
 #include "vesica/mesh/surface_locator.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::adapt {
 namespace {
@@ -23,12 +23,12 @@ using Eigen::Vector3d;
 
 constexpr double pi = std::numbers::pi;
 
-mesh::Surface shape(mesh::ShapeKind kind, int resolution) {
-  mesh::ShapeOptions options;
+mesh::Surface shape(shapes::ShapeKind kind, int resolution) {
+  shapes::ShapeOptions options;
   options.kind = kind;
   options.resolution = resolution;
   options.semi_axes << 1.5, 1, 0.8;
-  return mesh::make_shape(options);
+  return shapes::make_shape(options);
 }
 
 template <class Size>
@@ -76,7 +76,7 @@ void expect_good_mesh(const mesh::Surface& old, const Remeshed& found, Size size
 }
 
 TEST(LocalRemesh, RefinesAndCoarsensASphere) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 6);  // edges about 0.18
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 6);  // edges about 0.18
   for (const double size : {0.1, 0.18, 0.35}) {
     SCOPED_TRACE(size);
     const Remeshed found = uniform(sphere, size);
@@ -87,10 +87,10 @@ TEST(LocalRemesh, RefinesAndCoarsensASphere) {
 }
 
 TEST(LocalRemesh, MeshesATorusAndACapsuleWithGradedSizes) {
-  const mesh::Surface torus = shape(mesh::ShapeKind::torus, 8);
+  const mesh::Surface torus = shape(shapes::ShapeKind::torus, 8);
   const auto left = [](const Vector3d& x) { return 0.05 + 0.04 * std::abs(x.x() + 1); };
   expect_good_mesh(torus, local_remesh(torus, sizes_on(torus, left)), left);
-  const mesh::Surface capsule = shape(mesh::ShapeKind::capsule, 6);
+  const mesh::Surface capsule = shape(shapes::ShapeKind::capsule, 6);
   const auto band = [](const Vector3d& x) {
     return std::min(0.3, 0.08 + 0.2 * std::abs(x.x() - 2));
   };
@@ -98,10 +98,10 @@ TEST(LocalRemesh, MeshesATorusAndACapsuleWithGradedSizes) {
 }
 
 TEST(LocalRemesh, MeshesAThinNeck) {
-  mesh::ShapeOptions options;
-  options.kind = mesh::ShapeKind::peanut;
+  shapes::ShapeOptions options;
+  options.kind = shapes::ShapeKind::peanut;
   options.waist = 0.1;
-  const mesh::Surface peanut = mesh::make_shape(options);
+  const mesh::Surface peanut = shapes::make_shape(options);
   const auto size = [](const Vector3d& x) {
     return std::min(0.25, 0.025 + 0.2 * std::abs(x.x() - 2));
   };
@@ -109,7 +109,7 @@ TEST(LocalRemesh, MeshesAThinNeck) {
 }
 
 TEST(LocalRemesh, HealsABadMesh) {
-  mesh::Surface surface = shape(mesh::ShapeKind::sphere, 6);
+  mesh::Surface surface = shape(shapes::ShapeKind::sphere, 6);
   for (auto x : surface.positions.rowwise()) {  // nodes pressed towards the plane x = y
     x(0) += 0.9 * x(1);
     x.normalize();
@@ -119,7 +119,7 @@ TEST(LocalRemesh, HealsABadMesh) {
 }
 
 TEST(LocalRemesh, MeshesARoughSurface) {
-  mesh::Surface surface = shape(mesh::ShapeKind::sphere, 6);
+  mesh::Surface surface = shape(shapes::ShapeKind::sphere, 6);
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.006);  // a fifteenth of the distance of nodes
   for (double& coordinate : surface.positions.reshaped()) coordinate += noise(random);
@@ -128,7 +128,7 @@ TEST(LocalRemesh, MeshesARoughSurface) {
 }
 
 TEST(LocalRemesh, PutsEveryNodeOnTheOldSurface) {
-  const mesh::Surface old = shape(mesh::ShapeKind::ellipsoid, 4);
+  const mesh::Surface old = shape(shapes::ShapeKind::ellipsoid, 4);
   const Remeshed found = uniform(old, 0.15);
   const mesh::Positions at_origins =
       mesh::interpolate(*old.triangulation, found.origins, old.positions);
@@ -136,7 +136,7 @@ TEST(LocalRemesh, PutsEveryNodeOnTheOldSurface) {
 }
 
 TEST(LocalRemesh, KeepsVolumeAndAreaToTheOrderOfInterpolation) {
-  const mesh::Surface old = shape(mesh::ShapeKind::sphere, 20);
+  const mesh::Surface old = shape(shapes::ShapeKind::sphere, 20);
   const double volume = mesh::enclosed_volume(*old.triangulation, old.positions);
   const auto volume_error = [&](double size) {
     const Remeshed found = uniform(old, size);
@@ -149,7 +149,7 @@ TEST(LocalRemesh, KeepsVolumeAndAreaToTheOrderOfInterpolation) {
 }
 
 TEST(LocalRemesh, KeepsTheShapeToTheOrderOfInterpolation) {
-  const mesh::Surface old = shape(mesh::ShapeKind::ellipsoid, 20);
+  const mesh::Surface old = shape(shapes::ShapeKind::ellipsoid, 20);
   const mesh::SurfaceLocator exact(old.triangulation, old.positions);
   const auto distance = [&](double size) {
     const Remeshed found = uniform(old, size);
@@ -166,7 +166,7 @@ TEST(LocalRemesh, KeepsTheShapeToTheOrderOfInterpolation) {
 }
 
 TEST(LocalRemesh, LeavesNoLessThanAClosedSurface) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 3);
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 3);
   const Remeshed found = uniform(sphere, 100);
   EXPECT_EQ(found.surface.triangulation->euler_characteristic(), 2);
   EXPECT_LT(found.surface.triangulation->num_triangles(), 21);
@@ -174,13 +174,13 @@ TEST(LocalRemesh, LeavesNoLessThanAClosedSurface) {
 }
 
 TEST(LocalRemesh, KeepsTheHoleOfATorusThatIsMeshedTooCoarsely) {
-  const mesh::Surface torus = shape(mesh::ShapeKind::torus, 8);
+  const mesh::Surface torus = shape(shapes::ShapeKind::torus, 8);
   const Remeshed found = uniform(torus, 3);
   EXPECT_EQ(found.surface.triangulation->euler_characteristic(), 0);
 }
 
 TEST(LocalRemesh, DoesTheSameTwice) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 4);
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 4);
   EXPECT_EQ(uniform(sphere, 0.2).surface.positions, uniform(sphere, 0.2).surface.positions);
 }
 
@@ -195,7 +195,7 @@ void expect_refusal(const mesh::Surface& surface, const Eigen::VectorXd& sizes,
 }
 
 TEST(LocalRemesh, RefusesSizesThatAreTooFewOrNotPositive) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 1);
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 1);
   expect_refusal(sphere, Eigen::VectorXd::Ones(3),
                  "remeshing: 3 sizes: must be one for each of the 42 nodes");
   Eigen::VectorXd sizes = Eigen::VectorXd::Ones(42);

@@ -8,7 +8,7 @@
 #include "nodal_shape_operators.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/mesh/quality.hpp"
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::adapt {
 namespace {
@@ -16,11 +16,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 mesh::Surface sphere(int resolution, double radius = 1) {
-  mesh::ShapeOptions options;
-  options.kind = mesh::ShapeKind::sphere;
+  shapes::ShapeOptions options;
+  options.kind = shapes::ShapeKind::sphere;
   options.resolution = resolution;
   options.radius = radius;
-  return mesh::make_shape(options);
+  return shapes::make_shape(options);
 }
 
 fem::NodeGraph graph_of(const mesh::Surface& surface) {

@@ -13,18 +13,18 @@
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
 #include "vesica/mesh/quality.hpp"
-#include "vesica/mesh/shapes.hpp"
 #include "vesica/mesh/surface_locator.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::adapt {
 namespace {
 
-mesh::Surface shape(mesh::ShapeKind kind, int resolution) {
-  mesh::ShapeOptions options;
+mesh::Surface shape(shapes::ShapeKind kind, int resolution) {
+  shapes::ShapeOptions options;
   options.kind = kind;
   options.resolution = resolution;
   options.semi_axes << 1.5, 1, 0.8;
-  return mesh::make_shape(options);
+  return shapes::make_shape(options);
 }
 
 /// V, A and int h(c), h(c) = (3 c - c^3) / 2.
@@ -60,7 +60,7 @@ Eigen::VectorXd derivative_of_phase(const Eigen::VectorXd& c) {
 
 TEST(Transfer, OfASmoothFieldHasThirdOrder) {
   const auto error = [](int resolution) {
-    const mesh::Surface old = shape(mesh::ShapeKind::ellipsoid, resolution);
+    const mesh::Surface old = shape(shapes::ShapeKind::ellipsoid, resolution);
     const Eigen::VectorXd sizes = Eigen::VectorXd::Constant(old.positions.rows(), 0.8 / resolution);
     const Remeshed found = local_remesh(old, sizes);
     const Eigen::VectorXd carried =
@@ -71,7 +71,7 @@ TEST(Transfer, OfASmoothFieldHasThirdOrder) {
 }
 
 TEST(RestoreIntegrals, PutsVolumeAreaAndPhaseBackAfterRemeshing) {
-  const mesh::Surface old = shape(mesh::ShapeKind::ellipsoid, 6);
+  const mesh::Surface old = shape(shapes::ShapeKind::ellipsoid, 6);
   const Eigen::VectorXd c = phase_on(old.positions);
   const Eigen::VectorXd targets = integrals_on(old)({old.positions, c});
   const Remeshed found = local_remesh(old, Eigen::VectorXd::Constant(old.positions.rows(), 0.25));
@@ -94,7 +94,7 @@ TEST(RestoreIntegrals, PutsVolumeAreaAndPhaseBackAfterRemeshing) {
 }
 
 TEST(RestoreIntegrals, MendsErrorsOfOnePercent) {
-  const mesh::Surface surface = shape(mesh::ShapeKind::ellipsoid, 4);
+  const mesh::Surface surface = shape(shapes::ShapeKind::ellipsoid, 4);
   const RestorableFields start{surface.positions, phase_on(surface.positions)};
   const Integrals integrals = integrals_on(surface);
   Eigen::VectorXd targets = integrals(start);
@@ -111,7 +111,7 @@ TEST(RestoreIntegrals, MendsErrorsOfOnePercent) {
 }
 
 TEST(RestoreIntegrals, LeavesFieldsThatAreRightAlone) {
-  const mesh::Surface surface = shape(mesh::ShapeKind::ellipsoid, 3);
+  const mesh::Surface surface = shape(shapes::ShapeKind::ellipsoid, 3);
   const RestorableFields start{surface.positions, phase_on(surface.positions)};
   const Integrals integrals = integrals_on(surface);
   const auto restored = restore_integrals(
@@ -122,7 +122,7 @@ TEST(RestoreIntegrals, LeavesFieldsThatAreRightAlone) {
 }
 
 TEST(RestoreIntegrals, SaysWhenASphereCannotHaveMoreVolumeAtItsArea) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 4);
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 4);
   const RestorableFields start{sphere.positions, Eigen::VectorXd::Ones(sphere.positions.rows())};
   const Integrals integrals = integrals_on(sphere);
   Eigen::VectorXd targets = integrals(start);
@@ -135,7 +135,7 @@ TEST(RestoreIntegrals, SaysWhenASphereCannotHaveMoreVolumeAtItsArea) {
 }
 
 TEST(RestoringDirections, AreNormalToTheSurface) {
-  const mesh::Surface sphere = shape(mesh::ShapeKind::sphere, 6);
+  const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 6);
   const Eigen::VectorXd curvature = Eigen::VectorXd::Constant(sphere.positions.rows(), -2);
   const auto directions = restoring_directions(sphere, curvature, {});
   ASSERT_EQ(directions.size(), 2U);
@@ -144,7 +144,7 @@ TEST(RestoringDirections, AreNormalToTheSurface) {
 }
 
 TEST(RestoreIntegrals, RefusesTargetsOfAnotherNumber) {
-  const mesh::Surface surface = shape(mesh::ShapeKind::sphere, 1);
+  const mesh::Surface surface = shape(shapes::ShapeKind::sphere, 1);
   const RestorableFields start{surface.positions, Eigen::VectorXd::Zero(42)};
   EXPECT_THROW((void)restore_integrals(integrals_on(surface), Eigen::VectorXd::Zero(2), {}, start),
                ConfigError);

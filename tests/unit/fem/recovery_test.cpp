@@ -14,12 +14,12 @@ namespace vesica::fem {
 namespace {
 
 mesh::Surface torus(int resolution) {
-  mesh::ShapeOptions shape;
-  shape.kind = mesh::ShapeKind::torus;
+  shapes::ShapeOptions shape;
+  shape.kind = shapes::ShapeKind::torus;
   shape.major_radius = 2;
   shape.minor_radius = 0.5;
   shape.resolution = resolution;
-  return mesh::make_shape(shape);
+  return shapes::make_shape(shape);
 }
 
 TEST(RecoveredShapeOperator, IsTheTangentProjectionOverTheRadiusOnASphere) {

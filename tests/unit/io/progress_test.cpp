@@ -20,7 +20,7 @@ std::string printed(ProgressStyle style, long steps) {
   std::ostringstream out;
   Progress progress(out, style);
   const problem::State state = fake_state();
-  const problem::Diagnostics measured = fake_diagnostics();
+  const measure::Diagnostics measured = fake_diagnostics();
   for (long step = 0; step <= steps; ++step) {
     const solve::StepReport report = fake_report(step);
     progress.observe({state, report, measured});
@@ -32,14 +32,14 @@ std::string printed(ProgressStyle style, long steps) {
 
 TEST(Progress, ALineTellsTimeStepEnergyVelocityErrorAndQuality) {
   const problem::State state = fake_state();
-  const problem::Diagnostics measured = fake_diagnostics();
+  const measure::Diagnostics measured = fake_diagnostics();
   const solve::StepReport report = fake_report(12);
   EXPECT_EQ(progress_line({state, report, measured}), line_12);
 }
 
 TEST(Progress, ALineOfAMinimisationTellsEvaluationsAndTheDistanceToTheMinimum) {
   const problem::State state = fake_state();
-  const problem::Diagnostics measured = fake_diagnostics();
+  const measure::Diagnostics measured = fake_diagnostics();
   solve::StepReport report = fake_report(12);
   report.counts.residuals = 71;
   report.gradient = 3.2e-4;
@@ -54,7 +54,7 @@ TEST(Progress, AnEventHasALineOfItsOwn) {
   const relax::Event event{12, 0.25, "domains of phase 1: 2 -> 1"};
   EXPECT_EQ(event_line(event), event_12);
   const problem::State state = fake_state();
-  const problem::Diagnostics measured = fake_diagnostics();
+  const measure::Diagnostics measured = fake_diagnostics();
   const solve::StepReport report = fake_report(12);
   for (const auto& [style, text] :
        {std::pair{ProgressStyle::sparse, fmt::format("{}\n", event_12)},
@@ -85,7 +85,7 @@ TEST(Progress, APipeHasALineAfterFiveSeconds) {
   std::ostringstream out;
   Progress progress(out, ProgressStyle::sparse);
   const problem::State state = fake_state();
-  const problem::Diagnostics measured = fake_diagnostics();
+  const measure::Diagnostics measured = fake_diagnostics();
   solve::StepReport report = fake_report(0);
   for (const double seconds : {0.0, 4.0, 6.0, 8.0}) {
     report.seconds.total = seconds;

@@ -16,6 +16,7 @@
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/trajectory_writer.hpp"
+#include "vesica/io/verdict_files.hpp"
 
 namespace vesica::io {
 namespace {
@@ -23,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Writes a made-up run of a few steps.
-Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int signal = 0) {
-  RunConfig config;
+relax::Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int signal = 0) {
+  config::RunConfig config;
   config.title = "made up";
   config.phase.emplace();
   config.output.directory = folder.string();
@@ -34,8 +35,8 @@ Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int sign
   outcome.signal = signal;
   outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
   outcome.events = {{3, 0.5, "domains of phase 1: 1 -> 2"}};
-  const problem::Diagnostics measured = fake_diagnostics();
-  TrajectoryWriter writer(folder, config, case_of(config, fake_state()));
+  const measure::Diagnostics measured = fake_diagnostics();
+  TrajectoryWriter writer(folder, config, setup::case_of(config, fake_state()));
   for (long step = 0; step <= 12; ++step) {
     report = fake_report(step);
     state.time = 0.125 * static_cast<double>(step);
@@ -43,8 +44,8 @@ Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int sign
     writer.observe({state, report, measured});
   }
   writer.finish({state, report, measured}, outcome);
-  Verdict verdict = make_verdict(outcome, solve::SolverOptions{}, {}, state);
-  write_verdict(config, verdict);
+  relax::Verdict verdict = relax::make_verdict(outcome, solve::SolverOptions{}, {}, state);
+  io::write_verdict(config, verdict);
   return verdict;
 }
 
@@ -80,10 +81,10 @@ TEST(RunReader, ReadsTheFinalStateBack) {
 TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
   const test::TemporaryFolder folder;
   write_fake_run(folder.path(), relax::RunStatus::interrupted, SIGINT);
-  RunConfig config;
+  config::RunConfig config;
   config.phase.emplace();
-  const Case resumed = resumed_case(config, folder.path());
-  const Origin expected = case_of(config, fake_state()).origin;
+  const setup::Case resumed = resumed_case(config, folder.path());
+  const setup::Origin expected = setup::case_of(config, fake_state()).origin;
   EXPECT_EQ(resumed.origin.measures.volume, expected.measures.volume);
   EXPECT_EQ(resumed.origin.measures.area, expected.measures.area);
   EXPECT_EQ(resumed.origin.measures.phase_difference, expected.measures.phase_difference);
@@ -94,8 +95,8 @@ TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
 
 TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {
   const test::TemporaryFolder folder;
-  const Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
-  write_text_file(folder.path() / "again.json", to_json(read_run(folder.path()).verdict));
+  const relax::Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
+  write_text_file(folder.path() / "again.json", io::to_json(read_run(folder.path()).verdict));
   const JsonReader written(folder.path() / "verdict.json");
   const JsonReader again(folder.path() / "again.json");
   EXPECT_EQ(again.text("/status"), "converged");
@@ -130,12 +131,13 @@ TEST(RunReader, KeepsTheExitStatusOfTheRun) {
 
 TEST(RunReader, TheEnergyOfAFailedStartIsNoNumber) {
   const test::TemporaryFolder folder;
-  RunConfig config;
+  config::RunConfig config;
   config.phase.emplace();
   config.output.directory = folder.path().string();
-  const Case vesicle = case_of(config, fake_state());
-  write_verdict(config, make_verdict(record_failed_start(config, vesicle, "no values"),
-                                     solve::SolverOptions{}, vesicle.model, vesicle.start));
+  const setup::Case vesicle = setup::case_of(config, fake_state());
+  io::write_verdict(config,
+                    relax::make_verdict(record_failed_start(config, vesicle, "no values"),
+                                        solve::SolverOptions{}, vesicle.model, vesicle.start));
   const FinishedRun run = read_run(folder.path());
   ASSERT_EQ(run.history.energy.size(), 1U);
   EXPECT_TRUE(std::isnan(run.history.energy[0]));

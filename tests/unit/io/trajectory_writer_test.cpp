@@ -84,9 +84,9 @@ std::string text_of(const fs::path& path) {
 /// A run that can be written step by step.
 struct FakeRun {
   problem::State state = fake_state();
-  problem::Diagnostics measured = fake_diagnostics();
+  measure::Diagnostics measured = fake_diagnostics();
   solve::StepReport report = fake_report(0);
-  RunConfig config;
+  config::RunConfig config;
 
   void observe(relax::Observer& observer, long step) {
     report.counts.steps = step;

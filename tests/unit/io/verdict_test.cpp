@@ -6,15 +6,16 @@
 #include <string>
 
 #include "fake_run.hpp"
-#include "vesica/io/verdict.hpp"
+#include "vesica/io/verdict_files.hpp"
+#include "vesica/relax/verdict.hpp"
 
 namespace vesica::io {
 namespace {
 
 using relax::RunStatus;
 
-Verdict fake_verdict(RunStatus status) {
-  Verdict verdict;
+relax::Verdict fake_verdict(RunStatus status) {
+  relax::Verdict verdict;
   verdict.outcome = fake_outcome(status);
   verdict.method = "ida";
   verdict.time = 0.1;
@@ -50,13 +51,13 @@ TEST(Verdict, JsonHoldsTheNumbersAndNullForWhatIsAbsent) {
 }
 
 TEST(Verdict, CountsTheChangesOfTheMesh) {
-  Verdict verdict = fake_verdict(RunStatus::converged);
+  relax::Verdict verdict = fake_verdict(RunStatus::converged);
   verdict.outcome.mesh_changes.resize(3);
   EXPECT_NE(to_json(verdict).find("\"remeshings\": 3"), std::string::npos) << to_json(verdict);
 }
 
 TEST(Verdict, HoldsAreasAndBoundariesOfTheDomainsPhaseByPhase) {
-  Verdict verdict = fake_verdict(RunStatus::converged);
+  relax::Verdict verdict = fake_verdict(RunStatus::converged);
   const std::string none = to_json(verdict);
   EXPECT_NE(none.find("\"areas\": {\n      \"phase_1\": [],"), std::string::npos) << none;
   verdict.outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
@@ -70,7 +71,7 @@ TEST(Verdict, HoldsAreasAndBoundariesOfTheDomainsPhaseByPhase) {
 }
 
 TEST(Verdict, ListsTheEvents) {
-  Verdict verdict = fake_verdict(RunStatus::converged);
+  relax::Verdict verdict = fake_verdict(RunStatus::converged);
   EXPECT_NE(to_json(verdict).find("\"events\": [],"), std::string::npos);
   verdict.outcome.events = {{3, 0.5, "domains of phase 1: 2 -> 1"}, {4, 0.75, "remeshed"}};
   const std::string json = to_json(verdict);
@@ -81,15 +82,15 @@ TEST(Verdict, ListsTheEvents) {
 }
 
 TEST(Verdict, StatusHasTheNamesOfTheInterface) {
-  EXPECT_EQ(status_name(RunStatus::converged), "converged");
-  EXPECT_EQ(status_name(RunStatus::end_time), "time limit");
-  EXPECT_EQ(status_name(RunStatus::time_limit), "time limit");
-  EXPECT_EQ(status_name(RunStatus::step_limit), "step limit");
-  EXPECT_EQ(status_name(RunStatus::neck_closes), "neck closes");
-  EXPECT_EQ(status_name(RunStatus::budding), "budding");
-  EXPECT_EQ(status_name(RunStatus::self_intersection), "self-intersection");
-  EXPECT_EQ(status_name(RunStatus::interrupted), "interrupted");
-  EXPECT_EQ(status_name(RunStatus::numerical_failure), "numerical failure");
+  EXPECT_EQ(relax::status_name(RunStatus::converged), "converged");
+  EXPECT_EQ(relax::status_name(RunStatus::end_time), "time limit");
+  EXPECT_EQ(relax::status_name(RunStatus::time_limit), "time limit");
+  EXPECT_EQ(relax::status_name(RunStatus::step_limit), "step limit");
+  EXPECT_EQ(relax::status_name(RunStatus::neck_closes), "neck closes");
+  EXPECT_EQ(relax::status_name(RunStatus::budding), "budding");
+  EXPECT_EQ(relax::status_name(RunStatus::self_intersection), "self-intersection");
+  EXPECT_EQ(relax::status_name(RunStatus::interrupted), "interrupted");
+  EXPECT_EQ(relax::status_name(RunStatus::numerical_failure), "numerical failure");
 }
 
 TEST(Verdict, ExitStatusTellsHowTheRunEnded) {
@@ -113,7 +114,7 @@ TEST(Verdict, ExitStatusTellsHowTheRunEnded) {
 
 TEST(Verdict, TheTableForPeopleLeavesOutWhatIsAbsent) {
   std::ostringstream out;
-  print_verdict(out, fake_verdict(RunStatus::step_limit));
+  io::print_verdict(out, fake_verdict(RunStatus::step_limit));
   const std::string text = out.str();
   EXPECT_TRUE(text.starts_with("step limit: because of the \"test\"\n")) << text;
   EXPECT_NE(text.find("  energy            total 58.75, bending 50.5, gaussian 0, line 8.25\n"),

@@ -13,7 +13,7 @@
 #include "expect_message.hpp"
 #include "sample_surfaces.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::mesh {
 namespace {
@@ -80,10 +80,10 @@ TEST(SmallestNormalCosine, IsThatOfTheEdgesOfAnOctahedron) {
 }
 
 TEST(SmallestNormalCosine, TendsToOneOnASmoothSurface) {
-  ShapeOptions options;
-  options.kind = ShapeKind::sphere;
+  shapes::ShapeOptions options;
+  options.kind = shapes::ShapeKind::sphere;
   options.resolution = 8;
-  const Surface surface = make_shape(options);
+  const Surface surface = shapes::make_shape(options);
   const double cosine = smallest_normal_cosine(*surface.triangulation, surface.positions);
   EXPECT_GT(cosine, 0.98);
   EXPECT_LT(cosine, 1.0);
@@ -115,10 +115,10 @@ TEST(EnclosedVolume, IsExactForFlatFacesAndDoesNotDependOnTheOrigin) {
 }
 
 TEST(EnclosedVolume, OfACurvedSurfaceIsInvariantUnderShiftsAndScalesWithTheDeterminant) {
-  ShapeOptions options;
-  options.kind = ShapeKind::tips;
+  shapes::ShapeOptions options;
+  options.kind = shapes::ShapeKind::tips;
   options.resolution = 2;
-  Surface surface = make_shape(options);
+  Surface surface = shapes::make_shape(options);
   const double volume = enclosed_volume(*surface.triangulation, surface.positions);
   surface.positions.rowwise() += Eigen::RowVector3d(1, 2, 3);
   EXPECT_NEAR(enclosed_volume(*surface.triangulation, surface.positions), volume, 1e-12 * volume);

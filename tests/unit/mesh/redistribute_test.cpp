@@ -9,7 +9,7 @@
 #include "shape_measures.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/mesh/quality.hpp"
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::mesh {
 namespace {
@@ -21,7 +21,7 @@ const Vector3d semi_axes(1.5, 1, 0.8);
 /// Nodes of a unit sphere drift towards +x by the map (x, y, z) -> (x + a, y, z) / |...|, then the
 /// sphere becomes the ellipsoid: exact positions, bad elements.
 Surface drifted_ellipsoid(int resolution, double drift) {
-  Surface surface = make_shape(test::shape(ShapeKind::sphere, resolution));
+  Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::sphere, resolution));
   for (auto x : surface.positions.rowwise()) {
     x(0) += drift;
     x.normalize();
@@ -39,7 +39,7 @@ double distance_to_ellipsoid(const Vector3d& x) {
 
 /// Every vertex and mid-edge node of a sphere takes a random step along the sphere.
 Surface shaken_sphere(int resolution, double step) {
-  Surface surface = make_shape(test::shape(ShapeKind::sphere, resolution));
+  Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::sphere, resolution));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-step, step);
   for (auto x : surface.positions.rowwise()) {
@@ -68,7 +68,8 @@ TEST(Redistribute, HealsAShakenMesh) {
 }
 
 TEST(Redistribute, KeepsEqualAreasWhereValencesDiffer) {
-  const Surface cigar = make_shape(test::shape(ShapeKind::capsule, 4));  // valences 3 to 8
+  const Surface cigar =
+      shapes::make_shape(test::shape(shapes::ShapeKind::capsule, 4));  // valences 3 to 8
   const Redistribution found = redistribute(cigar, 10);
   EXPECT_LT(area_ratio(*cigar.triangulation, found.positions), 1.5);
   EXPECT_GT(quality(*cigar.triangulation, found.positions), 0.55);
@@ -98,7 +99,7 @@ TEST(Redistribute, KeepsTheShapeToTheOrderOfInterpolation) {
 }
 
 TEST(Redistribute, MakesElementsSmallWhereSmallOnesAreWanted) {
-  const Surface surface = make_shape(test::shape(ShapeKind::sphere, 6));
+  const Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::sphere, 6));
   Eigen::VectorXd sizes(surface.positions.rows());
   for (Eigen::Index i = 0; i < sizes.size(); ++i) sizes[i] = 1.5 - surface.positions(i, 2);
   const Redistribution found = redistribute(surface, 20, sizes);
@@ -121,7 +122,7 @@ TEST(Redistribute, LeavesAMeshAloneThatItCannotImprove) {
 }
 
 TEST(Redistribute, RefusesSizesThatAreTooFewOrNotPositive) {
-  const Surface surface = make_shape(test::shape(ShapeKind::sphere, 1));
+  const Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::sphere, 1));
   test::expect_message<ConfigError>(
       [&] { (void)redistribute(surface, 1, Eigen::VectorXd::Ones(3)); },
       "redistribute: 3 sizes: must be one for each of the 42 nodes");

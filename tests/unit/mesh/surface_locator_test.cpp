@@ -12,7 +12,7 @@
 #include "sample_surfaces.hpp"
 #include "shape_measures.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::mesh {
 namespace {
@@ -45,7 +45,7 @@ double sampled_distance(const SurfaceLocator& locator, const Vector3d& point, in
 }
 
 TEST(SurfaceLocator, FindsEveryNodeAtDistanceZero) {
-  const Surface surface = make_shape(test::shape(ShapeKind::tips, 3));
+  const Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::tips, 3));
   const SurfaceLocator locator = locator_of(surface);
   for (Eigen::Index i = 0; i < surface.positions.rows(); ++i) {
     const Vector3d node = surface.positions.row(i);
@@ -68,9 +68,9 @@ TEST(SurfaceLocator, IsExactOnAFlatSidedSurface) {
 }
 
 TEST(SurfaceLocator, AgreesWithDenseSamplingNearAndFar) {
-  ShapeOptions options = test::shape(ShapeKind::tips, 2);
+  shapes::ShapeOptions options = test::shape(shapes::ShapeKind::tips, 2);
   options.tip_height = 0.8;
-  const SurfaceLocator locator = locator_of(make_shape(options));
+  const SurfaceLocator locator = locator_of(shapes::make_shape(options));
   std::mt19937 random(1);
   constexpr int pieces = 40;
   for (int sample = 0; sample < 60; ++sample) {
@@ -83,7 +83,8 @@ TEST(SurfaceLocator, AgreesWithDenseSamplingNearAndFar) {
 }
 
 TEST(SurfaceLocator, EndsWhereTheOffsetIsNormalToTheSurfaceOrToAnEdge) {
-  const SurfaceLocator locator = locator_of(make_shape(test::shape(ShapeKind::torus, 8)));
+  const SurfaceLocator locator =
+      locator_of(shapes::make_shape(test::shape(shapes::ShapeKind::torus, 8)));
   std::mt19937 random(2);
   int num_inside = 0;
   for (int sample = 0; sample < 200; ++sample) {
@@ -104,7 +105,7 @@ TEST(SurfaceLocator, EndsWhereTheOffsetIsNormalToTheSurfaceOrToAnEdge) {
 TEST(SurfaceLocator, DistanceToASphereConvergesWithThirdOrderOrBetter) {
   const auto error = [](int resolution) {
     const SurfaceLocator locator =
-        locator_of(make_shape(test::shape(ShapeKind::sphere, resolution)));
+        locator_of(shapes::make_shape(test::shape(shapes::ShapeKind::sphere, resolution)));
     std::mt19937 random(3);
     double largest = 0;
     for (int sample = 0; sample < 300; ++sample) {
@@ -123,9 +124,9 @@ TEST(SurfaceLocator, DistanceToASphereConvergesWithThirdOrderOrBetter) {
 
 TEST(SurfaceLocator, KeepsToTheSheetWithTheGivenNormal) {
   // Two sheets 0.1 apart, normals up and down.
-  ShapeOptions options = test::shape(ShapeKind::ellipsoid, 6);
+  shapes::ShapeOptions options = test::shape(shapes::ShapeKind::ellipsoid, 6);
   options.semi_axes << 1, 1, 0.05;
-  const SurfaceLocator locator = locator_of(make_shape(options));
+  const SurfaceLocator locator = locator_of(shapes::make_shape(options));
   const Vector3d point(0.1, 0.2, 0.03);  // nearer to the upper sheet
   EXPECT_GT(locator.closest(point).point.z(), 0);
   EXPECT_GT(locator.closest(point, {0, 0, 2}).point.z(), 0);
@@ -136,7 +137,7 @@ TEST(SurfaceLocator, KeepsToTheSheetWithTheGivenNormal) {
 }
 
 TEST(SurfaceLocator, WalksToTheClosestPointFromNearby) {
-  const Surface surface = make_shape(test::shape(ShapeKind::torus, 12));
+  const Surface surface = shapes::make_shape(test::shape(shapes::ShapeKind::torus, 12));
   const SurfaceLocator locator = locator_of(surface);
   std::mt19937 random(5);
   for (const QuadraticTriangle& nodes : surface.triangulation->triangles()) {
@@ -149,9 +150,9 @@ TEST(SurfaceLocator, WalksToTheClosestPointFromNearby) {
 }
 
 TEST(SurfaceLocator, StaysOnTheSheetWhereTheWalkStarts) {
-  ShapeOptions options = test::shape(ShapeKind::ellipsoid, 6);
+  shapes::ShapeOptions options = test::shape(shapes::ShapeKind::ellipsoid, 6);
   options.semi_axes << 1, 1, 0.05;
-  const SurfaceLocator locator = locator_of(make_shape(options));
+  const SurfaceLocator locator = locator_of(shapes::make_shape(options));
   const SurfaceLocation lower = locator.closest({0.1, 0.2, -1});
   EXPECT_LT(locator.closest_from(lower, {0.15, 0.2, 0.03}).point.z(), 0);
 }

@@ -10,7 +10,7 @@
 #include "controller_test.hpp"
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/relax/make_mesh_controller.hpp"
 #include "vesica/relax/remesh.hpp"
 
@@ -100,9 +100,9 @@ TEST_F(BisectionControllerTest, GivesUpAfterFiveFailures) {
 }
 
 TEST_F(BisectionControllerTest, RefusesConformalImagesOfATorusAtTheStart) {
-  mesh::ShapeOptions torus;
-  torus.kind = mesh::ShapeKind::torus;
-  state_ = test::start_on(mesh::make_shape(torus));
+  shapes::ShapeOptions torus;
+  torus.kind = shapes::ShapeKind::torus;
+  state_ = test::start_on(shapes::make_shape(torus));
   options_.method = MeshMethod::conformal;
   BisectionController controller(options_, model_, scales_);
   EXPECT_THROW((void)controller.respond(view_at(0)), ConfigError);
@@ -146,13 +146,13 @@ class BisectionPlanTest : public BisectionControllerTest {
     EXPECT_LT((changed->values.order_parameter - x.col(2)).cwiseAbs().maxCoeff(), error);
     EXPECT_LT((changed->values.mean_curvature.array() + 2 + x.col(0).array()).abs().maxCoeff(),
               error);
-    const auto before = problem::measure(model_, state_);
-    const auto after = problem::measure(model_, *changed);
+    const auto before = measure::measure(model_, state_);
+    const auto after = measure::measure(model_, *changed);
     EXPECT_NEAR(after.volume, before.volume, 1e-4);  // nu and kappa nu are parallel on a sphere
     EXPECT_NEAR(after.area, before.area, 1e-4);
   }
 
-  adapt::BisectionOptions marking_;
+  paper::BisectionOptions marking_;
 };
 
 TEST_F(BisectionPlanTest, KeepsFieldsAndIntegrals) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vesica/measure/diagnostics.hpp"
 #include "vesica/model/model.hpp"
-#include "vesica/problem/diagnostics.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/problem/state.hpp"
 #include "vesica/relax/observer.hpp"
@@ -23,7 +23,7 @@ class ControllerTest : public ::testing::Test {
   problem::Scales scales_;
   problem::State state_;
   solve::StepReport report_;
-  problem::Diagnostics diagnostics_;
+  measure::Diagnostics diagnostics_;
 };
 
 }  // namespace vesica::relax

@@ -22,7 +22,7 @@ std::vector<Event> events_of(const std::vector<std::vector<double>>& areas, bool
     state.time = 0.5 * static_cast<double>(step);
     solve::StepReport report;
     report.counts.steps = static_cast<long>(step);
-    problem::Diagnostics measured;
+    measure::Diagnostics measured;
     for (const double area : areas[step]) measured.domains.push_back({1, area, 0});
     measured.domains.push_back({2, 1, 0});
     add(watch.look({state, report, measured}));

@@ -13,7 +13,7 @@ TEST(InterruptController, AsksToStopOnceASignalHasArrived) {
   const problem::State state;
   solve::StepReport report;
   report.counts.steps = 7;
-  const problem::Diagnostics measured;
+  const measure::Diagnostics measured;
   std::atomic<int> signal{0};
   InterruptController controller(signal);
   EXPECT_TRUE(controller.respond({state, report, measured}).empty());

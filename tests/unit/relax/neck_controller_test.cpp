@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "controller_test.hpp"
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::relax {
 namespace {
@@ -22,11 +22,11 @@ class NeckControllerTest : public ControllerTest {
   }
 
   void set_waist(double radius) {
-    mesh::ShapeOptions options;
-    options.kind = mesh::ShapeKind::peanut;
+    shapes::ShapeOptions options;
+    options.kind = shapes::ShapeKind::peanut;
     options.resolution = 4;
     options.waist = 2 * radius;
-    const mesh::Surface surface = mesh::make_shape(options);
+    const mesh::Surface surface = shapes::make_shape(options);
     state_.triangulation = surface.triangulation;
     state_.values.positions = surface.positions;
     state_.values.order_parameter = (surface.positions.col(axis_).array() - interface_).sign();

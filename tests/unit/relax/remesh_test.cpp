@@ -11,7 +11,7 @@
 
 #include "fake_stepper.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/problem/diagnostics.hpp"
+#include "vesica/measure/diagnostics.hpp"
 
 namespace vesica::relax {
 namespace {
@@ -46,8 +46,8 @@ TEST(Remesh, KeepsVolumeAreaAndPhaseDifference) {
   const auto changed = remeshed(c.model, c.start, request());
   ASSERT_TRUE(changed.has_value());
   EXPECT_NE(changed->triangulation->num_nodes(), c.start.triangulation->num_nodes());
-  const auto before = problem::measure(c.model, c.start);
-  const auto after = problem::measure(c.model, *changed);
+  const auto before = measure::measure(c.model, c.start);
+  const auto after = measure::measure(c.model, *changed);
   EXPECT_NEAR(after.volume, before.volume, 1e-11);
   EXPECT_NEAR(after.area, before.area, 1e-11);
   EXPECT_NEAR(*after.phase_difference, *before.phase_difference, 1e-11);
@@ -128,23 +128,23 @@ TEST(Remesh, InTheMiddleOfARampGoesOnWithIt) {
   const double volume = c.model.targets.volume->last();
   c.model.targets.volume = model::Schedule::ramp(volume, 0.9 * volume, 0, 0.04);
   c.model.material.line_tension = model::Schedule::ramp(1, 2, 0, 0.04);
-  auto stepper = solve::make_stepper({}, c.model, c.start);
+  auto stepper = run::make_stepper({}, c.model, c.start);
   solve::StepReport report;
   while (stepper->state().time < 0.02) report = stepper->step(0.02);
-  const auto before = problem::measure(c.model, stepper->state());
+  const auto before = measure::measure(c.model, stepper->state());
   ASSERT_LT(std::abs(*before.constraint_errors.volume), 5e-3);
   auto changed = remeshed(c.model, stepper->state(), request());
   ASSERT_TRUE(changed.has_value());
-  EXPECT_NEAR(*problem::measure(c.model, *changed).constraint_errors.volume,
+  EXPECT_NEAR(*measure::measure(c.model, *changed).constraint_errors.volume,
               *before.constraint_errors.volume, 1e-10);
-  stepper = solve::restart_stepper({}, c.model, std::move(*changed), {0.3 * report.step_size});
+  stepper = run::restart_stepper({}, c.model, std::move(*changed), {0.3 * report.step_size});
   while (stepper->state().time < 0.08) {
     report = stepper->step(0.08);
     ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
-    const auto error = problem::measure(c.model, stepper->state()).constraint_errors.volume;
+    const auto error = measure::measure(c.model, stepper->state()).constraint_errors.volume;
     EXPECT_LT(std::abs(*error), 5e-3) << "t = " << stepper->state().time;
   }
-  EXPECT_LT(std::abs(*problem::measure(c.model, stepper->state()).constraint_errors.volume), 5e-4);
+  EXPECT_LT(std::abs(*measure::measure(c.model, stepper->state()).constraint_errors.volume), 5e-4);
 }
 
 /// Asks for one new mesh after a step, when a step fails, or at the end.

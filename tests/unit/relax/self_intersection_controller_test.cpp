@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "vesica/mesh/shapes.hpp"
+#include "vesica/shapes/shapes.hpp"
 
 namespace vesica::relax {
 namespace {
@@ -19,10 +19,10 @@ class SelfIntersectionControllerTest : public ::testing::Test {
 
   std::string answer(Controller& controller, long step, double depth,
                      Response response = &Controller::respond) {
-    mesh::ShapeOptions options;
-    options.kind = mesh::ShapeKind::sphere;
+    shapes::ShapeOptions options;
+    options.kind = shapes::ShapeKind::sphere;
     options.resolution = 12;
-    const mesh::Surface sphere = mesh::make_shape(options);
+    const mesh::Surface sphere = shapes::make_shape(options);
     problem::State state;
     state.triangulation = sphere.triangulation;
     state.values.positions = sphere.positions;
@@ -30,7 +30,7 @@ class SelfIntersectionControllerTest : public ::testing::Test {
       if (row[2] > 0) row[2] -= depth * std::exp(-row.head<2>().squaredNorm() / 0.16);
     solve::StepReport report;
     report.counts.steps = step;
-    const problem::Diagnostics measured;
+    const measure::Diagnostics measured;
     const auto requests = (controller.*response)({state, report, measured});
     if (requests.empty()) return "nothing";
     const auto& stop = std::get<Stop>(requests.front());

@@ -11,7 +11,7 @@ bool is_at_rest(Stationarity& criterion, long newton) {
   state.values.multipliers.volume = 1.0;
   solve::StepReport report;
   report.counts.newton = newton;
-  problem::Diagnostics diagnostics;
+  measure::Diagnostics diagnostics;
   diagnostics.area = 12.5;
   return criterion.is_at_rest({state, report, diagnostics});
 }

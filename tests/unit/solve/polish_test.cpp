@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "relaxation_cases.hpp"
-#include "vesica/problem/common_mesh.hpp"
+#include "vesica/compare/on_mesh.hpp"
 #include "vesica/problem/normal_graph.hpp"
 
 namespace vesica::solve {
@@ -84,8 +84,8 @@ TEST(CommonMesh, FindsTheSameEquilibriumFromAnotherDescriptionOfTheShape) {
   const auto flow = test::run_case(c, polished(Scheme::variational));
   const auto weak = test::run_case(c);
   const auto& positions = flow.state.values.positions;
-  const auto moved = problem::on_mesh_of(flow.state, weak.state,
-                                         problem::shape_distance(flow.state, weak.state).motion);
+  const auto moved = compare::on_mesh_of(flow.state, weak.state,
+                                         compare::shape_distance(flow.state, weak.state).motion);
   ASSERT_GT((moved.values.positions - positions).norm(), 1e-4);
   const auto a = find_equilibrium({}, c.model, flow.state, positions);
   const auto b = find_equilibrium({}, c.model, moved, positions);

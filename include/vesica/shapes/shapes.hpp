@@ -1,0 +1,126 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/mesh/triangulation.hpp"
+
+namespace vesica::shapes {
+
+enum class ShapeKind { capsule, sphere, ellipsoid, torus, peanut, tips, file };
+
+/// Polyhedron that the sphere's triangulation is made from.
+enum class SphereBase { cube, icosahedron };
+
+}  // namespace vesica::shapes
+
+namespace vesica {
+
+template <>
+struct EnumNames<shapes::ShapeKind> {
+  static constexpr std::array<std::pair<shapes::ShapeKind, std::string_view>, 7> names = {
+      {{shapes::ShapeKind::capsule, "capsule"},
+       {shapes::ShapeKind::sphere, "sphere"},
+       {shapes::ShapeKind::ellipsoid, "ellipsoid"},
+       {shapes::ShapeKind::torus, "torus"},
+       {shapes::ShapeKind::peanut, "peanut"},
+       {shapes::ShapeKind::tips, "tips"},
+       {shapes::ShapeKind::file, "file"}}};
+};
+
+template <>
+struct EnumNames<shapes::SphereBase> {
+  static constexpr std::array<std::pair<shapes::SphereBase, std::string_view>, 2> names = {
+      {{shapes::SphereBase::cube, "cube"}, {shapes::SphereBase::icosahedron, "icosahedron"}}};
+};
+
+}  // namespace vesica
+
+namespace vesica::shapes {
+
+/// A starting shape. Each kind reads its own keys; the others are ignored.
+struct ShapeOptions {
+  ShapeKind kind = ShapeKind::capsule;
+  int resolution = 6;
+  double length = 4.0;
+  double diameter = 1.0;
+  double waist = 0.5;
+  SphereBase base = SphereBase::icosahedron;
+  double radius = 1.0;
+  Eigen::Vector3d semi_axes{2.0, 1.0, 1.0};
+  double major_radius = 1.0;
+  double minor_radius = 0.15;
+  int number_of_tips = 3;
+  double tip_height = 0.5;
+  double tip_width = 0.5;
+  std::string path;
+  bool flip = false;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"kind", "-", "capsule, sphere, ellipsoid, torus, peanut, tips, file"}, self.kind);
+    visit(Field{"resolution", "-",
+                "capsule, peanut: squares along an edge of a glued cube face (capsule of length 4: "
+                "N = 72 m^2 + 2); torus: elements around the tube; sphere, ellipsoid, tips: pieces "
+                "of an icosahedron edge (N = 40 m^2 + 2), or bisections of the cube "
+                "(N = 24 2^m + 2)",
+                Rule::at_least_one},
+          self.resolution);
+    visit(Field{"length", "length", "capsule, peanut: total length along x", Rule::positive},
+          self.length);
+    visit(Field{"diameter", "length", "capsule, peanut: largest diameter", Rule::positive},
+          self.diameter);
+    visit(
+        Field{"waist", "length", "peanut: diameter in the middle, below diameter", Rule::positive},
+        self.waist);
+    visit(Field{"base", "-", "sphere, ellipsoid, tips: made from a cube or icosahedron"},
+          self.base);
+    visit(Field{"radius", "length", "sphere, tips: radius", Rule::positive}, self.radius);
+    visit(Field{"semi_axes", "length", "ellipsoid: semi-axes along x, y, z", Rule::positive},
+          self.semi_axes);
+    visit(Field{"major_radius", "length", "torus: from the centre to the middle of the tube",
+                Rule::positive},
+          self.major_radius);
+    visit(Field{"minor_radius", "length", "torus: of the tube, below major_radius", Rule::positive},
+          self.minor_radius);
+    visit(Field{"number_of_tips", "-",
+                "tips: 1 pole, 2 poles, 3 triangle, 4 tetrahedron, 6 octahedron, 12 icosahedron; "
+                "others up to 60 evenly spread",
+                Rule::at_least_one},
+          self.number_of_tips);
+    visit(Field{"tip_height", "length", "tips: height above the sphere", Rule::non_negative},
+          self.tip_height);
+    visit(Field{"tip_width", "rad", "tips: angular width of a tip", Rule::positive},
+          self.tip_width);
+    visit(Field{"path", "-",
+                "file: closed triangulated surface, .off or .obj; relative to the current folder"},
+          self.path);
+    visit(Field{"flip", "-", "file: turn a surface that is inside out"}, self.flip);
+  }
+};
+
+/// Builds a starting shape with outward orientation; all nodes, mid-edge nodes included, lie on:
+///
+///   capsule    the cylinder of the given diameter with hemispherical caps; x in [0, length], axis
+///              through y = z = diameter / 2; made of n = round(length / diameter) glued unit cubes
+///              with m x m squares a face: 4 (4 n + 2) m^2 + 2 nodes
+///   sphere     |x| = radius
+///   ellipsoid  (x / a)^2 + (y / b)^2 + (z / c)^2 = 1
+///   torus      around z, centred at 0
+///   peanut     x = length / 2 (1 - s), rho = sqrt(1 - s^2) (waist / 2 + b s^2), s in [-1, 1], with
+///   b
+///              such that the largest 2 rho is the diameter; placed and triangulated like the
+///              capsule
+///   tips       |x| = radius + tip_height sum_k exp((cos angle(x, t_k) - 1) / tip_width^2) with the
+///              n directions t_k of Section 4.4
+///   file       see read_surface
+///
+/// Throws ConfigError `shape.<key> = <value>: <rule>` for values that make no shape, and what
+/// read_surface throws.
+[[nodiscard]] mesh::Surface make_shape(const ShapeOptions& options);
+
+}  // namespace vesica::shapes

@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "config/case_document.hpp"
+#include "config/nearest_name.hpp"
+#include "config/option_values.hpp"
+#include "config/unused_options.hpp"
+#include "vesica/config/config.hpp"
+#include "vesica/core/error.hpp"
+
+namespace vesica::config {
+namespace {
+
+constexpr Field accuracy_field{"accuracy", "-", "preset of solver.rtol and stop.normal_velocity"};
+
+/// Reads the keys of one table into an options struct.
+class TableReader {
+ public:
+  TableReader(const CaseDocument& document, std::string_view name, const toml::table& table)
+      : document_(document), name_(name), table_(table) {}
+
+  template <class T>
+  void operator()(const Field& field, T& target) {
+    known_.emplace_back(field.name);
+    const toml::node* node = table_.get(field.name);
+    if (node == nullptr) return;
+    const std::string key = fmt::format("{}.{}", name_, field.name);
+    assign(Entry{document_.place(key, node->source()), key, *node}, field.rule, target);
+  }
+
+  void refuse_unknown_keys() const {
+    for (const auto& [key, node] : table_) {
+      const std::string word(key.str());
+      if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
+      const std::string path = fmt::format("{}.{}", name_, word);
+      Entry{document_.place(path, key.source()), path, node}.refuse("unknown key" +
+                                                                    suggestion(word, known_));
+    }
+  }
+
+ private:
+  const CaseDocument& document_;
+  std::string name_;
+  const toml::table& table_;
+  std::vector<std::string> known_;
+};
+
+/// Reads the tables of a case file.
+class ConfigReader {
+ public:
+  explicit ConfigReader(const CaseDocument& document) : document_(document) {}
+
+  template <class Options>
+  void operator()(const Table& table, Options& options) {
+    known_.emplace_back(table.name);
+    const toml::node* node = document_.root().get(table.name);
+    if (node == nullptr) return;
+    const std::string name(table.name);
+    if (!node->is_table())
+      Entry{document_.place(name, node->source()), name, *node}.refuse("must be a table");
+    TableReader reader(document_, name, *node->as_table());
+    if constexpr (std::is_same_v<Options, solve::SolverOptions>) {
+      Accuracy already_read = Accuracy::normal;
+      reader(accuracy_field, already_read);
+    }
+    Options::fields(options, reader);
+    reader.refuse_unknown_keys();
+  }
+
+  template <class Options>
+  void operator()(const Table& table, std::optional<Options>& options) {
+    if (document_.root().contains(table.name)) {
+      (*this)(table, options.emplace());
+    } else {
+      known_.emplace_back(table.name);
+    }
+  }
+
+  void read_title(std::string& title) {
+    known_.emplace_back("title");
+    const toml::node* node = document_.root().get("title");
+    if (node != nullptr)
+      assign(Entry{document_.place("title", node->source()), "title", *node}, Rule::any, title);
+  }
+
+  void refuse_unknown_tables() const {
+    for (const auto& [key, node] : document_.root()) {
+      const std::string word(key.str());
+      if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
+      const std::string place = document_.place(word, key.source());
+      if (!node.is_table())
+        Entry{place, word, node}.refuse("unknown key" + suggestion(word, known_));
+      throw ConfigError(
+          fmt::format("{}: [{}]: unknown table{}", place, word, suggestion(word, known_)));
+    }
+  }
+
+ private:
+  const CaseDocument& document_;
+  std::vector<std::string> known_;
+};
+
+std::map<std::string, std::string> places_of(const CaseDocument& document) {
+  std::map<std::string, std::string> places;
+  for (const auto& [name, table] : document.root()) {
+    if (!table.is_table()) continue;
+    for (const auto& [key, value] : *table.as_table()) {
+      const std::string path = fmt::format("{}.{}", name.str(), key.str());
+      places[path] = document.place(path, value.source());
+    }
+  }
+  return places;
+}
+
+const toml::node* find(const CaseDocument& document, std::string_view table, std::string_view key) {
+  const toml::table* found = document.root()[table].as_table();
+  return found == nullptr ? nullptr : found->get(key);
+}
+
+/// The preset comes before the keys it sets.
+void apply_accuracy(const CaseDocument& document, RunConfig& config) {
+  const toml::node* node = find(document, "solver", accuracy_field.name);
+  if (node == nullptr) return;
+  const std::string key = "solver.accuracy";
+  assign(Entry{document.place(key, node->source()), key, *node}, Rule::any, config.accuracy);
+  if (config.accuracy == Accuracy::draft) {
+    config.solver.rtol = 1e-2;
+    config.stop.normal_velocity = 1e-2;
+  } else if (config.accuracy == Accuracy::reference) {
+    config.solver.rtol = 1e-5;
+    config.stop.normal_velocity = 1e-4;
+  }
+}
+
+/// The paper's scheme comes with its damping constants and its stopping rule (3.4), unless the case
+/// says otherwise.
+void apply_method(const CaseDocument& document, RunConfig& config) {
+  const toml::node* node = find(document, "solver", "method");
+  if (node == nullptr) return;
+  const std::string key = "solver.method";
+  assign(Entry{document.place(key, node->source()), key, *node}, Rule::any, config.solver.method);
+  if (config.solver.method != solve::Method::semi_implicit) return;
+  config.damping.kind = relax::DampingKind::paper;
+  config.stop.steps_without_newton = 10;
+}
+
+/// Finds the first key whose schedule is not constant.
+struct FindMotion {
+  std::string_view key;
+
+  void operator()(const Field& field, const model::Schedule& schedule) {
+    if (key.empty() && !schedule.is_constant()) key = field.name;
+  }
+  void operator()(const Field& field, const model::PhaseSchedules& pair) {
+    (*this)(field, pair.phase_1);
+    (*this)(field, pair.phase_2);
+  }
+  void operator()(const Field& field, const model::Target& target) {
+    if (key.empty() && target.begins_at_start) key = field.name;
+    (*this)(field, target.schedule);
+  }
+  void operator()(const Field&, const std::optional<double>&) {}
+};
+
+template <class Options>
+std::string_view moving_key(const Options& options) {
+  FindMotion find_motion{};
+  Options::fields(options, find_motion);
+  return find_motion.key;
+}
+
+void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
+  const auto refuse = [&document](std::string_view table, std::string_view key,
+                                  std::string_view rule) {
+    const toml::node* node = find(document, table, key);
+    const std::string path = fmt::format("{}.{}", table, key);
+    Entry{document.place(path, node->source()), path, *node}.refuse(rule);
+  };
+  const bool can_adapt =
+      config.solver.method == solve::Method::ida && config.solver.scheme == solve::Scheme::paper;
+  if (config.adaption.enabled && !can_adapt) {
+    refuse("adaption", "enabled",
+           fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
+                       "and \"{}\"",
+                       name_of(config.solver.method), name_of(config.solver.scheme)));
+  }
+  if (config.solver.method == solve::Method::minimize) {
+    constexpr std::string_view rule = "must be constant for solver.method = \"minimize\"";
+    const auto material = moving_key(config.material);
+    const auto target = moving_key(config.constraints);
+    if (!material.empty()) refuse("material", material, rule);
+    if (!target.empty()) refuse("constraints", target, rule);
+  }
+  for (const Field& field : unused_fields(config.adaption, config.adaption.method)) {
+    refuse("adaption", field.name,
+           fmt::format("means nothing with adaption.method = \"{}\"",
+                       name_of(config.adaption.method)));
+  }
+  if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
+}
+
+}  // namespace
+
+RunConfig read_config_text(std::string_view text, std::string_view name,
+                           std::span<const std::string> overrides) {
+  const CaseDocument document(text, name, overrides);
+  RunConfig config;
+  apply_accuracy(document, config);
+  apply_method(document, config);
+  ConfigReader reader(document);
+  reader.read_title(config.title);
+  RunConfig::tables(config, reader);
+  reader.refuse_unknown_tables();
+  check_rules_between_options(document, config);
+  config.places = places_of(document);
+  return config;
+}
+
+std::string placed(const RunConfig& config, std::string_view message) {
+  const auto found =
+      config.places.find(std::string(message.substr(0, message.find_first_of(" :["))));
+  if (found == config.places.end()) return std::string(message);
+  return fmt::format("{}: {}", found->second, message);
+}
+
+RunConfig read_config(const std::string& path, std::span<const std::string> overrides) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) {
+    throw IoError(fmt::format("{}: cannot be read ({})", path,
+                              errno == 0 ? "empty file" : std::generic_category().message(errno)));
+  }
+  return read_config_text(std::move(text).str(), path, overrides);
+}
+
+}  // namespace vesica::config

@@ -1,0 +1,152 @@
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "problem/constraint_kernel.hpp"
+#include "semi_implicit_kernel.hpp"
+#include "vesica/core/parallel.hpp"
+#include "vesica/paper/semi_implicit_problem.hpp"
+
+/// What the quasi-Newton iteration of appendix B needs of SemiImplicitProblem.
+namespace vesica::paper {
+
+namespace {
+
+constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+problem::ElementNodes<double> element_nodes(const problem::Fields& fields,
+                                            const mesh::QuadraticTriangle& triangle) {
+  problem::ElementNodes<double> nodes;
+  const bool is_two_phase = fields.order_parameter.size() > 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto node = triangle[i];
+    nodes.x[i] = {fields.positions(node, 0), fields.positions(node, 1), fields.positions(node, 2)};
+    nodes.c[i] = is_two_phase ? fields.order_parameter[node] : 1;
+  }
+  return nodes;
+}
+
+/// Changes of the normal position and of c with the multiplier in column `column`, at a point.
+struct Displacement {
+  double normal;
+  double order_parameter;
+};
+
+Displacement displacement_at(const SemiImplicitSolution& solution, Eigen::Index column, int block,
+                             const mesh::QuadraticTriangle& triangle, const fem::ShapeValues& shape,
+                             const Vec3<double>& normal) {
+  Displacement sum{0, 0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto u =
+        solution.geometry.col(column).segment<3>(static_cast<Eigen::Index>(triangle[i]) * block);
+    sum.normal -= shape.value[i] * (u[0] * normal.x + u[1] * normal.y + u[2] * normal.z);
+    if (solution.phase.size() > 0)
+      sum.order_parameter -= shape.value[i] * solution.phase(triangle[i], column);
+  }
+  return sum;
+}
+
+}  // namespace
+
+problem::Fields SemiImplicitProblem::fields_at(const SemiImplicitSolution& solution,
+                                               const Eigen::VectorXd& multipliers) const {
+  const auto n = layout_.num_nodes();
+  const auto m = layout_.num_multipliers();
+  const Eigen::VectorXd y = solution.geometry.col(0) - solution.geometry.rightCols(m) * multipliers;
+  problem::Fields fields;
+  fields.positions.resize(n, 3);
+  fields.mean_curvature.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    fields.positions.row(i) = y.segment<3>(i * block_size()).transpose();
+    fields.mean_curvature[i] = y[i * block_size() + 3];
+  }
+  if (layout_.is_two_phase())
+    fields.order_parameter = solution.phase.col(0) - solution.phase.rightCols(m) * multipliers;
+  const auto value = [&](int constraint) -> std::optional<double> {
+    if (layout_.multiplier(constraint) < 0) return std::nullopt;
+    return multipliers[layout_.multiplier(constraint)];
+  };
+  fields.multipliers = {value(0), value(1), value(2)};
+  return fields;
+}
+
+std::array<double, model::num_constraints> SemiImplicitProblem::functionals(
+    const problem::Fields& fields) const {
+  std::vector<std::array<double, model::num_constraints>> elements(
+      at(triangulation_->num_triangles()));
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      elements[at(t)] = problem::element_constraint_values(
+          element_nodes(fields, triangulation_->triangles()[at(t)]), layout_.is_two_phase());
+    }
+  });
+  std::array<double, model::num_constraints> sum{};
+  for (const auto& element : elements) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += element[i];
+  }
+  return sum;
+}
+
+Eigen::VectorXd SemiImplicitProblem::constraint_errors(const problem::Fields& fields,
+                                                       double time) const {
+  const auto measured = functionals(fields);
+  const auto targets = model_.targets.in_order();
+  Eigen::VectorXd errors(layout_.num_multipliers());
+  for (int i = 0; i < model::num_constraints; ++i) {
+    if (layout_.multiplier(i) >= 0)
+      errors[layout_.multiplier(i)] = measured[at(i)] - targets[at(i)]->value(time);
+  }
+  return errors;
+}
+
+Eigen::VectorXd SemiImplicitProblem::constraint_scales(const problem::Fields& fields,
+                                                       double time) const {
+  const double area = functionals(fields)[1];
+  const auto targets = model_.targets.in_order();
+  Eigen::VectorXd scales(layout_.num_multipliers());
+  for (int i = 0; i < model::num_constraints; ++i) {
+    if (layout_.multiplier(i) < 0) continue;
+    const double target = std::abs(targets[at(i)]->value(time));
+    scales[layout_.multiplier(i)] = target > 0 ? target : area;
+  }
+  return scales;
+}
+
+Eigen::MatrixXd SemiImplicitProblem::constraint_slopes(const problem::Fields& fields,
+                                                       const SemiImplicitSolution& solution) const {
+  const auto m = layout_.num_multipliers();
+  using Slopes = Eigen::Matrix<double, model::num_constraints, model::num_constraints>;
+  std::vector<Slopes> elements(at(triangulation_->num_triangles()), Slopes::Zero());
+  parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const auto& triangle = triangulation_->triangles()[at(t)];
+      const auto element = element_values(fields, triangle);
+      for (const auto& point : fem::triangle_rule()) {
+        const auto in = problem::point_inputs(element, point.shape);
+        const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+        const auto surface = problem::surface_point(in, frame, {});
+        for (Eigen::Index column = 0; column < m; ++column) {
+          const auto change = displacement_at(solution, 1 + column, block_size(), triangle,
+                                              point.shape, frame.normal);
+          Eigen::Index row = 0;
+          const auto add = [&]<class Constraint>(const Constraint&) {
+            const auto v = Constraint::variation(surface);
+            elements[at(t)](row++, column) += point.weight * frame.area_element *
+                                              (v.a * change.normal + v.s * change.order_parameter);
+          };
+          std::apply([&](const auto&... constraint) { (add(constraint), ...); },
+                     model::Constraints{});
+        }
+      }
+    }
+  });
+  Slopes sum = Slopes::Zero();
+  for (const auto& element : elements) sum += element;
+  Eigen::MatrixXd result(m, m);
+  for (int i = 0; i < model::num_constraints; ++i) {
+    if (layout_.multiplier(i) >= 0) result.row(layout_.multiplier(i)) = sum.row(i).head(m);
+  }
+  return result;
+}
+
+}  // namespace vesica::paper

@@ -1,0 +1,115 @@
+#include "vesica/phase/initial_phase.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "phase_file.hpp"
+#include "phase_levels.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/fem/surface_integral.hpp"
+#include "vesica/model/two_phase.hpp"
+#include "vesica/problem/state.hpp"
+
+namespace vesica::phase {
+namespace {
+
+void check_options(const PhaseOptions& options) {
+  PhaseOptions::fields(options, [](const Field& field, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int>) {
+      if (std::isfinite(static_cast<double>(value)) && satisfies(field.rule, value)) return;
+      throw ConfigError(fmt::format("phase.{} = {}: {}", field.name, value, rule_text(field.rule)));
+    }
+  });
+}
+
+Eigen::VectorXd shifted(const PhaseLevels& levels, double shift) {
+  const Eigen::ArrayXd level = levels.values.array() + shift;
+  if (levels.profile == PhaseProfile::tanh)
+    return level.unaryExpr([](double l) { return std::tanh(l); });
+  return level.max(-1.0).min(1.0);
+}
+
+/// Shift beyond which all levels are saturated: c = -1 or +1 in double precision.
+double saturation(PhaseProfile profile) { return profile == PhaseProfile::tanh ? 20.0 : 1.0; }
+
+/// int h(c) on a fixed surface, the sum that the constraint takes.
+class PhaseIntegral {
+ public:
+  explicit PhaseIntegral(const mesh::Surface& surface) {
+    state_.triangulation = surface.triangulation;
+    state_.values.positions = surface.positions;
+    fem::for_each_point(
+        *state_.triangulation, state_.values.positions,
+        [&](const fem::SurfaceSample& sample) { weights_.push_back(sample.weight); });
+  }
+
+  [[nodiscard]] double operator()(const Eigen::VectorXd& c) const {
+    double sum = 0;
+    auto weight = weights_.begin();
+    for (const auto& triangle : state_.triangulation->triangles()) {
+      for (const auto& point : fem::triangle_rule()) {
+        sum +=
+            *weight++ * model::phase_indicator(fem::combine<1>(c, triangle, point.shape.value)[0]);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  problem::State state_;
+  std::vector<double> weights_;  ///< quadrature weight times area element, triangle by triangle
+};
+
+/// Levels shifted so that int h(c) = target. Bisection to the last bit: the integral is continuous
+/// in the shift, but with quadratic shape functions not strictly monotone.
+Eigen::VectorXd match(const PhaseLevels& levels, const mesh::Surface& surface, double target) {
+  const PhaseIntegral integral(surface);
+  const auto error = [&](double shift) { return integral(shifted(levels, shift)) - target; };
+  double low = -levels.values.maxCoeff() - saturation(levels.profile);
+  double high = -levels.values.minCoeff() + saturation(levels.profile);
+  double error_low = error(low);
+  double error_high = error(high);
+  if (!(error_low <= 0 && error_high >= 0)) {
+    throw ConfigError(
+        fmt::format("phase.match_target: int h(c) = {:.8g} is out of reach: shifting the level "
+                    "gives {:.8g} to {:.8g}; "
+                    "change the target of the phase or set match_target = false",
+                    target, error_low + target, error_high + target));
+  }
+  constexpr int halvings = 100;  // more than the bits of a double
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double error_middle = error(middle);
+    if (error_middle <= 0) {
+      low = middle;
+      error_low = error_middle;
+    } else {
+      high = middle;
+      error_high = error_middle;
+    }
+  }
+  return shifted(levels, -error_low < error_high ? low : high);
+}
+
+}  // namespace
+
+Eigen::VectorXd initial_phase(const PhaseOptions& options, const mesh::Surface& surface,
+                              double interface_width, std::optional<double> target) {
+  check_options(options);
+  if (!(interface_width > 0) || !std::isfinite(interface_width)) {
+    throw ConfigError(fmt::format("material.interface_width = {}: must be > 0", interface_width));
+  }
+  const bool is_matched = target && options.match_target;
+  if (options.kind == PhaseKind::file) {
+    auto values = read_phase_file(options.path, surface.positions.rows());
+    return is_matched ? match({std::move(values), PhaseProfile::clip}, surface, *target) : values;
+  }
+  const auto levels = phase_levels(options, surface, interface_width);
+  return is_matched ? match(levels, surface, *target) : shifted(levels, 0);
+}
+
+}  // namespace vesica::phase

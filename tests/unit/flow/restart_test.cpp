@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "relaxation_cases.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/run/make_stepper.hpp"
+
+namespace vesica::flow {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The cigar with 290 nodes after some steps.
+problem::State moving_state(const test::RelaxationCase& c) {
+  const auto stepper = run::make_stepper({}, c.model, c.start);
+  for (int step = 0; step < 10; ++step) {
+    const auto report = stepper->step(infinity);
+    EXPECT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+  }
+  return stepper->state();
+}
+
+TEST(Restart, TakesAllValuesAndRatesAsTheyAre) {
+  const auto c = test::table_1_case(2);
+  auto state = moving_state(c);
+  state.damping = 0.25;
+  state.values.mean_curvature.array() += 0.5;  // not consistent with the positions
+  const auto stepper = run::restart_stepper({}, c.model, state, {1e-5});
+  const auto& start = stepper->state();
+  EXPECT_EQ(start.time, state.time);
+  EXPECT_EQ(start.damping, 0.25);
+  EXPECT_EQ(start.values.positions, state.values.positions);
+  EXPECT_EQ(start.values.mean_curvature, state.values.mean_curvature);
+  EXPECT_EQ(start.values.order_parameter, state.values.order_parameter);
+  EXPECT_EQ(start.values.multipliers.volume, state.values.multipliers.volume);
+  EXPECT_EQ(start.rates.positions, state.rates.positions);
+}
+
+TEST(Restart, BeginsWithTheGivenStep) {
+  const auto c = test::table_1_case(2);
+  const auto state = moving_state(c);
+  const double size = 1e-2 * state.time;
+  const auto stepper = run::restart_stepper({}, c.model, state, {size});
+  stepper->set_damping(2 * state.damping);  // does not look for consistent values either
+  EXPECT_EQ(stepper->state().rates.positions, state.rates.positions);
+  const auto report = stepper->step(infinity);
+  ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+  EXPECT_DOUBLE_EQ(report.step_size, size);
+  EXPECT_EQ(report.counts.steps, 1);
+}
+
+TEST(Restart, IsForTheFlowOfThePaperAlone) {
+  const auto c = test::table_1_case(2);
+  solve::SolverOptions variational;
+  variational.scheme = solve::Scheme::variational;
+  EXPECT_THROW((void)run::restart_stepper(variational, c.model, c.start, {}), ConfigError);
+  solve::SolverOptions minimise;
+  minimise.method = solve::Method::minimize;
+  EXPECT_THROW((void)run::restart_stepper(minimise, c.model, c.start, {}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vesica::flow
