@@ -81,12 +81,14 @@ Eigen::MatrixXd derivatives(const Integrals& integrals, const RestorableFields& 
 }  // namespace
 
 std::vector<RestorableFields> restoring_directions(const mesh::Surface& surface,
-                                                   const Eigen::VectorXd& mean_curvature,
-                                                   const Eigen::VectorXd& phase_derivative) {
+                                                   const std::vector<NodalChange>& changes) {
   const mesh::Positions normals = nodal_normals(surface);
-  std::vector<RestorableFields> directions = {{normals, {}},
-                                              {mean_curvature.asDiagonal() * normals, {}}};
-  if (phase_derivative.size() > 0) directions.push_back({{}, phase_derivative});
+  std::vector<RestorableFields> directions;
+  for (const NodalChange& change : changes) {
+    mesh::Positions move;
+    if (change.normal.size() > 0) move = change.normal.asDiagonal() * normals;
+    directions.push_back({std::move(move), change.order_parameter});
+  }
   return directions;
 }
 

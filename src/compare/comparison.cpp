@@ -25,9 +25,10 @@ std::optional<double> relative_difference(const std::optional<double>& first,
 
 model::PerConstraint relative_difference(const model::PerConstraint& first,
                                          const model::PerConstraint& second) {
-  return {relative_difference(first.volume, second.volume),
-          relative_difference(first.area, second.area),
-          relative_difference(first.phase, second.phase)};
+  model::PerConstraint result;
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    result[i] = relative_difference(first[i], second[i]);
+  return result;
 }
 
 bool has_converged(const ComparedRun& run) {

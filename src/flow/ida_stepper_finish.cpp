@@ -90,9 +90,9 @@ bool IdaStepper::take_implicit_step(double size, const problem::EquationSettings
 /// ||v_nu|| of the normal force that moves the surface, over that of the pressure, or of k_kappa /
 /// R_c^3 where the pressure is less.
 double IdaStepper::relative_force(const measure::Diagnostics& measured) const {
-  const double pressure = std::abs(state_.values.multipliers.volume.value_or(0));
+  const double pressure = std::abs(state_.values.multipliers.of<model::Volume>().value_or(0));
   return measured.velocity.normal /
-         (std::sqrt(measured.area) * std::max(pressure, scales_.multiplier()));
+         (std::sqrt(measured.measures.area()) * std::max(pressure, scales_.multiplier()));
 }
 
 /// The weak form has no energy to minimise: implicit steps that grow take the flow, held by the

@@ -22,9 +22,9 @@ void add_difference(JsonWriter& json, const compare::Difference& difference) {
   json.add("relative", difference.relative_energy);
   json.end_object();
   json.begin_object("multipliers");
-  json.add("volume", difference.multipliers.volume);
-  json.add("area", difference.multipliers.area);
-  json.add("phase", difference.multipliers.phase);
+  model::PerConstraint::fields(difference.multipliers, [&](const Field& field, const auto& value) {
+    json.add(field.name, value);
+  });
   json.end_object();
   json.add("shape_l2", difference.shape.l2);
   json.add("shape_hausdorff", difference.shape.hausdorff);

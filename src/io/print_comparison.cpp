@@ -60,9 +60,17 @@ void add_energies(SideBySide& table) {
     return run.verdict.outcome.diagnostics.energy;
   };
   table.add("energy", "{:.10g}", [=](const auto& run) { return energy(run).total(); })
-      .add("  bending", "{:.10g}", [=](const auto& run) { return energy(run).bending; })
-      .add("  gaussian", "{:.10g}", [=](const auto& run) { return energy(run).gaussian; })
-      .add("  line", "{:.10g}", [=](const auto& run) { return energy(run).line; });
+      .add("  bending", "{:.10g}",
+           [=](const auto& run) {
+             return energy(run)[model::place_of<model::Energies, model::BendingEnergy>];
+           })
+      .add("  gaussian", "{:.10g}",
+           [=](const auto& run) {
+             return energy(run)[model::place_of<model::Energies, model::GaussianEnergy>];
+           })
+      .add("  line", "{:.10g}", [=](const auto& run) {
+        return energy(run)[model::place_of<model::Energies, model::LineEnergy>];
+      });
 }
 
 void add_constraints(SideBySide& table) {
@@ -70,12 +78,30 @@ void add_constraints(SideBySide& table) {
   const auto error = [](const compare::ComparedRun& run) {
     return run.verdict.outcome.diagnostics.constraint_errors;
   };
-  table.add("multiplier volume", "{:.9g}", [=](const auto& run) { return lambda(run).volume; })
-      .add("  area", "{:.9g}", [=](const auto& run) { return lambda(run).area; })
-      .add("  phase", "{:.9g}", [=](const auto& run) { return lambda(run).phase; })
-      .add("constraint error volume", "{:.1e}", [=](const auto& run) { return error(run).volume; })
-      .add("  area", "{:.1e}", [=](const auto& run) { return error(run).area; })
-      .add("  phase", "{:.1e}", [=](const auto& run) { return error(run).phase; });
+  table
+      .add("multiplier volume", "{:.9g}",
+           [=](const auto& run) {
+             return lambda(run)[model::place_of<model::Constraints, model::Volume>];
+           })
+      .add("  area", "{:.9g}",
+           [=](const auto& run) {
+             return lambda(run)[model::place_of<model::Constraints, model::Area>];
+           })
+      .add("  phase", "{:.9g}",
+           [=](const auto& run) {
+             return lambda(run)[model::place_of<model::Constraints, model::PhaseDifference>];
+           })
+      .add("constraint error volume", "{:.1e}",
+           [=](const auto& run) {
+             return error(run)[model::place_of<model::Constraints, model::Volume>];
+           })
+      .add("  area", "{:.1e}",
+           [=](const auto& run) {
+             return error(run)[model::place_of<model::Constraints, model::Area>];
+           })
+      .add("  phase", "{:.1e}", [=](const auto& run) {
+        return error(run)[model::place_of<model::Constraints, model::PhaseDifference>];
+      });
 }
 
 void add_shapes(SideBySide& table) {
@@ -131,8 +157,9 @@ std::string difference_text(const compare::Difference& difference) {
              "{} - {}{}: energy {:.3e} (relative {:.2e})", difference.second, difference.first,
              difference.is_on_common_mesh ? ", both polished on the nodes of the first" : "",
              difference.energy, difference.relative_energy) +
-         optional_text("lambda_V", lambda.volume) + optional_text("lambda_A", lambda.area) +
-         optional_text("lambda_c", lambda.phase) +
+         optional_text("lambda_V", lambda.of<model::Volume>()) +
+         optional_text("lambda_A", lambda.of<model::Area>()) +
+         optional_text("lambda_c", lambda.of<model::PhaseDifference>()) +
          fmt::format("\n  shapes {:.2e} R_c in L2, {:.2e} R_c Hausdorff", difference.shape.l2,
                      difference.shape.hausdorff) +
          optional_text("phase fields", difference.shape.phase_l2) +

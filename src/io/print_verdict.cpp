@@ -41,17 +41,22 @@ std::string physics_text(const relax::Verdict& verdict) {
   const model::PerConstraint& errors = measured.constraint_errors;
   const measure::ShapeNumbers& shape = verdict.shape;
   Row energy("energy");
-  energy.add("total", measured.energy.total()).add("bending", measured.energy.bending);
-  energy.add("gaussian", measured.energy.gaussian).add("line", measured.energy.line);
+  energy.add("total", measured.energy.total())
+      .add("bending", measured.energy.of<model::BendingEnergy>());
+  energy.add("surface tension", measured.energy.of<model::SurfaceTension>());
+  energy.add("gaussian", measured.energy.of<model::GaussianEnergy>())
+      .add("line", measured.energy.of<model::LineEnergy>());
   Row multipliers("multipliers");
-  multipliers.add("volume", lambda.volume).add("area", lambda.area).add("phase", lambda.phase);
+  multipliers.add("volume", lambda.of<model::Volume>())
+      .add("area", lambda.of<model::Area>())
+      .add("phase", lambda.of<model::PhaseDifference>());
   Row constraints("constraint errors");
-  constraints.add("volume", errors.volume, "{:.1e}")
-      .add("area", errors.area, "{:.1e}")
-      .add("phase", errors.phase, "{:.1e}");
+  constraints.add("volume", errors.of<model::Volume>(), "{:.1e}")
+      .add("area", errors.of<model::Area>(), "{:.1e}")
+      .add("phase", errors.of<model::PhaseDifference>(), "{:.1e}");
   Row sizes("shape");
-  sizes.add("volume", measured.volume)
-      .add("area", measured.area)
+  sizes.add("volume", measured.measures.volume())
+      .add("area", measured.measures.area())
       .add("length", shape.length, "{:.5g}");
   sizes.add("neck radius", shape.neck_radius, "{:.4g}");
   Row reduced("reduced numbers");

@@ -13,8 +13,9 @@ constexpr long sparse_steps = 10;
 constexpr double sparse_seconds = 5;
 
 double largest_error(const model::PerConstraint& errors) {
-  return std::max({std::abs(errors.volume.value_or(0)), std::abs(errors.area.value_or(0)),
-                   std::abs(errors.phase.value_or(0))});
+  double largest = 0;
+  for (const auto& error : errors.values) largest = std::max(largest, std::abs(error.value_or(0)));
+  return largest;
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ std::string progress_line(const relax::StepView& view) {
                        measured.energy.total(), *view.report.gradient,
                        largest_error(measured.constraint_errors), measured.quality);
   }
-  const double radius = std::sqrt(measured.area / (4 * std::numbers::pi));
+  const double radius = std::sqrt(measured.measures.area() / (4 * std::numbers::pi));
   return fmt::format(
       "step {}  t {:.4g}  dt {:.1e}  order {}  F {:.6f}  v {:.1e}  C {:.1e}  q {:.3f}",
       view.report.counts.steps, view.state.time, view.report.step_size, view.report.order,

@@ -83,9 +83,9 @@ class FrameReader {
       state.values.order_parameter = scalar(group + "/order_parameter", num_nodes);
       state.rates.order_parameter = Eigen::VectorXd::Zero(num_nodes);
     }
-    state.values.multipliers = {file_.find_attribute(group, "multiplier_volume"),
-                                file_.find_attribute(group, "multiplier_area"),
-                                file_.find_attribute(group, "multiplier_phase")};
+    model::PerConstraint::fields(state.values.multipliers, [&](const Field& field, auto& value) {
+      value = file_.find_attribute(group, fmt::format("multiplier_{}", field.name));
+    });
     return state;
   }
 
@@ -120,14 +120,22 @@ class FrameReader {
 setup::Origin origin_of(const hdf5::ReadableFile& file) {
   const std::string group = "/origin";
   if (!file.has(group)) file.refuse(group, "is missing: an older version wrote the file");
-  return {{file.number_attribute(group, "volume"), file.number_attribute(group, "area"),
-           file.find_attribute(group, "phase_difference")},
-          file.number_attribute(group, "is_sphere") != 0};
+  setup::Origin origin;
+  model::Measures::fields(origin.measures, [&](const Field& field, auto& value) {
+    value = file.find_attribute(group, std::string(field.name));
+  });
+  for (const std::string_view needed : {model::Volume::key, model::Area::key})
+    (void)file.number_attribute(group, std::string(needed));
+  origin.is_sphere = file.number_attribute(group, "is_sphere") != 0;
+  return origin;
 }
 
 model::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
-  return {json.optional_number(object + "/volume"), json.optional_number(object + "/area"),
-          json.optional_number(object + "/phase")};
+  model::PerConstraint result;
+  model::PerConstraint::fields(result, [&](const Field& field, auto& value) {
+    value = json.optional_number(fmt::format("{}/{}", object, field.name));
+  });
+  return result;
 }
 
 measure::ShapeNumbers shape_of(const JsonReader& json) {
@@ -161,11 +169,12 @@ std::vector<measure::PhaseDomain> domains_of(const JsonReader& json) {
 
 measure::Diagnostics diagnostics_of(const JsonReader& json) {
   measure::Diagnostics measured;
-  measured.energy = {json.number("/energy/bending"), json.number("/energy/gaussian"),
-                     json.optional_number("/energy/line")};
-  measured.volume = json.number("/shape/volume");
-  measured.area = json.number("/shape/area");
-  measured.phase_difference = json.optional_number("/shape/phase_difference");
+  model::EnergyParts::fields(measured.energy, [&](const Field& field, auto& value) {
+    value = json.optional_number(fmt::format("/energy/{}", field.name));
+  });
+  model::Measures::fields(measured.measures, [&](const Field& field, auto& value) {
+    value = json.optional_number(fmt::format("/shape/{}", field.name));
+  });
   measured.constraint_errors = per_constraint(json, "/constraints");
   const double radius = json.number("/shape/characteristic_radius");
   measured.velocity = {radius * json.number("/normal_velocity_plain"),

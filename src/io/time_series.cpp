@@ -21,7 +21,7 @@ double number(const std::optional<double>& value) {
 }
 
 double radius(const View& view) {
-  return std::sqrt(view.diagnostics.area / (4 * std::numbers::pi));
+  return std::sqrt(view.diagnostics.measures.area() / (4 * std::numbers::pi));
 }
 
 double count(long value) { return static_cast<double>(value); }
@@ -32,25 +32,38 @@ constexpr std::array quantities{
     Quantity{"step_size", [](const View& v) { return v.report.step_size; }},
     Quantity{"order", [](const View& v) { return count(v.report.order); }},
     Quantity{"energy_total", [](const View& v) { return v.diagnostics.energy.total(); }},
-    Quantity{"energy_bending", [](const View& v) { return v.diagnostics.energy.bending; }},
-    Quantity{"energy_gaussian", [](const View& v) { return v.diagnostics.energy.gaussian; }},
-    Quantity{"energy_line", [](const View& v) { return number(v.diagnostics.energy.line); }},
+    Quantity{"energy_bending",
+             [](const View& v) { return number(v.diagnostics.energy.of<model::BendingEnergy>()); }},
+    Quantity{
+        "energy_gaussian",
+        [](const View& v) { return number(v.diagnostics.energy.of<model::GaussianEnergy>()); }},
+    Quantity{
+        "energy_surface_tension",
+        [](const View& v) { return number(v.diagnostics.energy.of<model::SurfaceTension>()); }},
+    Quantity{"energy_line",
+             [](const View& v) { return number(v.diagnostics.energy.of<model::LineEnergy>()); }},
     Quantity{"multiplier_volume",
-             [](const View& v) { return number(v.state.values.multipliers.volume); }},
+             [](const View& v) { return number(v.state.values.multipliers.of<model::Volume>()); }},
     Quantity{"multiplier_area",
-             [](const View& v) { return number(v.state.values.multipliers.area); }},
+             [](const View& v) { return number(v.state.values.multipliers.of<model::Area>()); }},
     Quantity{"multiplier_phase",
-             [](const View& v) { return number(v.state.values.multipliers.phase); }},
-    Quantity{"volume", [](const View& v) { return v.diagnostics.volume; }},
-    Quantity{"area", [](const View& v) { return v.diagnostics.area; }},
+             [](const View& v) {
+               return number(v.state.values.multipliers.of<model::PhaseDifference>());
+             }},
+    Quantity{"volume", [](const View& v) { return v.diagnostics.measures.volume(); }},
+    Quantity{"area", [](const View& v) { return v.diagnostics.measures.area(); }},
     Quantity{"phase_difference",
-             [](const View& v) { return number(v.diagnostics.phase_difference); }},
-    Quantity{"constraint_error_volume",
-             [](const View& v) { return number(v.diagnostics.constraint_errors.volume); }},
-    Quantity{"constraint_error_area",
-             [](const View& v) { return number(v.diagnostics.constraint_errors.area); }},
+             [](const View& v) { return number(v.diagnostics.measures.phase_difference()); }},
+    Quantity{
+        "constraint_error_volume",
+        [](const View& v) { return number(v.diagnostics.constraint_errors.of<model::Volume>()); }},
+    Quantity{
+        "constraint_error_area",
+        [](const View& v) { return number(v.diagnostics.constraint_errors.of<model::Area>()); }},
     Quantity{"constraint_error_phase",
-             [](const View& v) { return number(v.diagnostics.constraint_errors.phase); }},
+             [](const View& v) {
+               return number(v.diagnostics.constraint_errors.of<model::PhaseDifference>());
+             }},
     Quantity{"normal_velocity",
              [](const View& v) { return v.diagnostics.velocity.normal_rigid_free / radius(v); }},
     Quantity{"normal_velocity_plain",

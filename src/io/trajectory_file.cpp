@@ -95,10 +95,9 @@ void TrajectoryFile::write_configuration(const config::RunConfig& config) {
 void TrajectoryFile::write_origin(const setup::Origin& origin) {
   const std::string group = "/origin";
   file_.make_group(group);
-  file_.set_attribute(group, "volume", origin.measures.volume);
-  file_.set_attribute(group, "area", origin.measures.area);
-  if (origin.measures.phase_difference)
-    file_.set_attribute(group, "phase_difference", *origin.measures.phase_difference);
+  model::Measures::fields(origin.measures, [&](const Field& field, const auto& value) {
+    if (value) file_.set_attribute(group, std::string(field.name), *value);
+  });
   file_.set_attribute(group, "is_sphere", static_cast<std::int64_t>(origin.is_sphere));
 }
 
@@ -143,10 +142,10 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
   file_.set_attribute(group, "mesh", meshes_.back());
   file_.set_attribute(group, "damping", state.damping);
-  const model::PerConstraint& multipliers = state.values.multipliers;
-  if (multipliers.volume) file_.set_attribute(group, "multiplier_volume", *multipliers.volume);
-  if (multipliers.area) file_.set_attribute(group, "multiplier_area", *multipliers.area);
-  if (multipliers.phase) file_.set_attribute(group, "multiplier_phase", *multipliers.phase);
+  model::PerConstraint::fields(
+      state.values.multipliers, [&](const Field& field, const auto& value) {
+        if (value) file_.set_attribute(group, fmt::format("multiplier_{}", field.name), *value);
+      });
   file_.link(group + "/mesh", meshes_.back());
   file_.write(group + "/positions", values_of(state.values.positions), 3);
   file_.write(group + "/velocity", values_of(state.rates.positions), 3);

@@ -14,18 +14,16 @@ namespace {
 
 void add_constraints(JsonWriter& json, std::string_view key, const model::PerConstraint& values) {
   json.begin_object(key);
-  json.add("volume", values.volume);
-  json.add("area", values.area);
-  json.add("phase", values.phase);
+  model::PerConstraint::fields(
+      values, [&](const Field& field, const auto& value) { json.add(field.name, value); });
   json.end_object();
 }
 
 void add_energy(JsonWriter& json, const model::EnergyParts& energy) {
   json.begin_object("energy");
   json.add("total", energy.total());
-  json.add("bending", energy.bending);
-  json.add("gaussian", energy.gaussian);
-  json.add("line", energy.line);
+  model::EnergyParts::fields(
+      energy, [&](const Field& field, const auto& value) { json.add(field.name, value); });
   json.end_object();
 }
 
@@ -81,9 +79,9 @@ void add_events(JsonWriter& json, const std::vector<relax::Event>& events) {
 void add_shape(JsonWriter& json, const relax::Verdict& verdict) {
   const measure::ShapeNumbers& shape = verdict.shape;
   json.begin_object("shape");
-  json.add("volume", verdict.outcome.diagnostics.volume);
-  json.add("area", verdict.outcome.diagnostics.area);
-  json.add("phase_difference", verdict.outcome.diagnostics.phase_difference);
+  model::Measures::fields(
+      verdict.outcome.diagnostics.measures,
+      [&](const Field& field, const auto& value) { json.add(field.name, value); });
   json.add("characteristic_radius", shape.characteristic_radius);
   json.add("reduced_volume", shape.reduced_volume);
   json.add("phase_fraction", shape.phase_fraction);

@@ -46,35 +46,45 @@ model::SurfacePoint<double> point_of(const problem::State& state,
   return point;
 }
 
-/// Integrals of all energies and constrained functionals, in the order of the two lists.
-struct Integrals {
-  std::array<double, std::tuple_size_v<model::Energies>> energies{};
-  std::array<double, model::num_constraints> constraints{};
-};
+/// Integrals of the terms of a list that take part.
+template <class List, class Point>
+void add_integrals(const model::Physics& physics, const Point& point, double weight,
+                   std::array<std::optional<double>, std::tuple_size_v<List>>& sum) {
+  std::size_t place = 0;
+  model::for_each_term<List>([&]<class Term>() {
+    if (model::takes_part<Term>(physics)) {
+      sum[place] =
+          sum[place].value_or(0.0) + weight * model::density_of<Term>(physics.material, point);
+    }
+    ++place;
+  });
+}
 
-Integrals integrate(const model::Physics& physics, const problem::State& state) {
+/// Energies and constrained functionals.
+void integrate(const model::Physics& physics, const problem::State& state, Diagnostics& sum) {
   const auto shape_operator = shape_operator_of(physics.material, state);
-  Integrals sum;
   fem::for_each_point(
       *state.triangulation, state.values.positions, [&](const fem::SurfaceSample& sample) {
         const auto point = point_of(state, shape_operator, sample);
-        std::size_t index = 0;
-        const auto add_energy = [&]<class Energy>(const Energy&) {
-          if (problem::takes_part<Energy>(physics))
-            sum.energies[index] += sample.weight * Energy::density(physics.material, point);
-          ++index;
-        };
-        std::apply([&](const auto&... energy) { (add_energy(energy), ...); }, model::Energies{});
-        index = 0;
-        const auto add_constraint = [&]<class Constraint>(const Constraint&) {
-          if (problem::takes_part<Constraint>(physics))
-            sum.constraints[index] += sample.weight * Constraint::density(point);
-          ++index;
-        };
-        std::apply([&](const auto&... constraint) { (add_constraint(constraint), ...); },
-                   model::Constraints{});
+        add_integrals<model::Energies>(physics, point, sample.weight, sum.energy.values);
+        add_integrals<model::Constraints>(physics, point, sample.weight, sum.measures.values);
       });
-  return sum;
+}
+
+/// Relative errors of the constraints that have a target.
+model::PerConstraint constraint_errors(const model::Model& model, double time,
+                                       const model::Measures& measures) {
+  model::PerConstraint errors;
+  std::size_t place = 0;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    if (measures[place] && model.targets[place]) {
+      const double target = model.targets[place]->value(time);
+      errors[place] =
+          (*measures[place] - target) / model::error_scale<Constraint>(target, measures.area());
+    }
+    ++place;
+  });
+  return errors;
 }
 
 /// ||v_nu|| and ||v_tau||, and ||v_nu|| after the least-squares rigid motion is removed; modes that
@@ -118,35 +128,12 @@ VelocityNorms velocity_norms(const problem::State& state) {
           std::sqrt(std::max(0.0, tangential_squared))};
 }
 
-std::optional<double> relative_error(const std::optional<model::Schedule>& target, double time,
-                                     double value, double scale) {
-  if (!target) return std::nullopt;
-  return (value - target->value(time)) / scale;
-}
-
 }  // namespace
 
 Diagnostics measure(const model::Model& model, const problem::State& state) {
-  const auto integrals = integrate(model.at(state.time), state);
   Diagnostics result;
-  result.energy.bending = integrals.energies[0];
-  result.energy.gaussian = integrals.energies[1];
-  if (model.is_two_phase) result.energy.line = integrals.energies[2];
-  result.volume = integrals.constraints[0];
-  result.area = integrals.constraints[1];
-  if (model.is_two_phase) result.phase_difference = integrals.constraints[2];
-  const auto& targets = model.targets;
-  const double time = state.time;
-  if (targets.volume) {
-    result.constraint_errors.volume =
-        relative_error(targets.volume, time, result.volume, std::abs(targets.volume->value(time)));
-  }
-  result.constraint_errors.area =
-      relative_error(targets.area, time, result.area, targets.area ? targets.area->value(time) : 1);
-  if (model.is_two_phase) {
-    result.constraint_errors.phase =
-        relative_error(targets.phase_difference, time, *result.phase_difference, result.area);
-  }
+  integrate(model.at(state.time), state, result);
+  result.constraint_errors = constraint_errors(model, state.time, result.measures);
   result.velocity = velocity_norms(state);
   result.quality = mesh::quality(*state.triangulation, state.values.positions);
   result.domains = phase_domains(state);

@@ -14,8 +14,14 @@ namespace vesica::minimise {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> constraint_names{"volume", "area", "phase_difference"};
-constexpr std::size_t phase = 2;
+/// Calls visit.operator()<Constraint>() for the constraint at a place of the list.
+template <class Visit>
+void with_constraint(std::size_t place, const Visit& visit) {
+  std::size_t candidate = 0;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    if (candidate++ == place) visit.template operator()<Constraint>();
+  });
+}
 
 }  // namespace
 
@@ -53,9 +59,6 @@ ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& s
     throw ConfigError(fmt::format("{}.{} = {}: must be constant for solver.method = minimize",
                                   table, key, text_of(schedule)));
   }
-  const auto targets = model.targets.in_order();
-  const double length = scales.length;
-  const std::array<double, 3> units{length * length * length, length * length, length * length};
   for (const int place : model::active_constraints(model)) {
     const auto i = static_cast<std::size_t>(place);
     active_.push_back(i);
@@ -63,8 +66,11 @@ ConstraintSet::ConstraintSet(const model::Model& model, const problem::Scales& s
   targets_.resize(size());
   units_.resize(size());
   for (Eigen::Index k = 0; k < size(); ++k) {
-    targets_[k] = targets[active_[static_cast<std::size_t>(k)]]->last();
-    units_[k] = units[active_[static_cast<std::size_t>(k)]];
+    const auto place = active_[static_cast<std::size_t>(k)];
+    targets_[k] = model.targets[place]->last();
+    with_constraint(place, [&]<class Constraint>() {
+      units_[k] = std::pow(scales.length, Constraint::length_power);
+    });
   }
 }
 
@@ -78,9 +84,11 @@ Eigen::VectorXd ConstraintSet::errors(const problem::ConstraintEvaluation& evalu
 Eigen::VectorXd ConstraintSet::relative_errors(
     const problem::ConstraintEvaluation& evaluation) const {
   Eigen::VectorXd relative = errors(evaluation).cwiseAbs();
+  const double area = evaluation.values[model::place_of<model::Constraints, model::Area>];
   for (Eigen::Index k = 0; k < size(); ++k) {
-    relative[k] /= active_[static_cast<std::size_t>(k)] == phase ? evaluation.values[1]
-                                                                 : std::abs(targets_[k]);
+    with_constraint(active_[static_cast<std::size_t>(k)], [&]<class Constraint>() {
+      relative[k] /= model::error_scale<Constraint>(targets_[k], area);
+    });
   }
   return relative;
 }
@@ -92,7 +100,10 @@ double ConstraintSet::largest_error(const problem::ConstraintEvaluation& evaluat
 std::string ConstraintSet::worst_name(const problem::ConstraintEvaluation& evaluation) const {
   Eigen::Index worst = 0;
   relative_errors(evaluation).maxCoeff(&worst);
-  return std::string(constraint_names[active_[static_cast<std::size_t>(worst)]]);
+  std::string name;
+  with_constraint(active_[static_cast<std::size_t>(worst)],
+                  [&]<class Constraint>() { name = Constraint::key; });
+  return name;
 }
 
 Eigen::MatrixXd ConstraintSet::gradients(const problem::NormalGraph& graph,
@@ -102,9 +113,8 @@ Eigen::MatrixXd ConstraintSet::gradients(const problem::NormalGraph& graph,
   Eigen::MatrixXd result(is_two_phase ? 2 * n : n, size());
   for (Eigen::Index k = 0; k < size(); ++k) {
     const auto i = active_[static_cast<std::size_t>(k)];
-    const Eigen::VectorXd none;
-    result.col(k) = along_graph(graph, evaluation.positions[i],
-                                i == phase ? evaluation.order_parameter : none, is_two_phase);
+    result.col(k) =
+        along_graph(graph, evaluation.positions[i], evaluation.order_parameter[i], is_two_phase);
   }
   return result;
 }
@@ -119,10 +129,10 @@ Eigen::VectorXd ConstraintSet::lagrangian_gradient(const problem::NormalGraph& g
 }
 
 model::PerConstraint ConstraintSet::named(const Eigen::VectorXd& multipliers) const {
-  std::array<std::optional<double>, model::num_constraints> values;
+  model::PerConstraint values;
   for (Eigen::Index k = 0; k < size(); ++k)
     values[active_[static_cast<std::size_t>(k)]] = multipliers[k];
-  return model::PerConstraint::from(values);
+  return values;
 }
 
 }  // namespace vesica::minimise

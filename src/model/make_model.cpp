@@ -127,50 +127,51 @@ double largest_reduced_volume(const Schedule& volume, const Schedule& area) {
   return largest;
 }
 
-std::optional<Schedule> volume_target(const ConstraintOptions& options, const Measures& start,
-                                      const std::optional<Schedule>& area) {
-  if (options.reduced_volume) {
-    const double reduced = *options.reduced_volume;
-    check_reduced({"reduced_volume", "-", "", Rule::positive}, reduced, "volume",
-                  is_given(options.volume), area);
-    if (reduced > 1 + tolerance) {
-      refuse("reduced_volume", reduced, "must be <= 1: no surface of this area encloses more");
-    }
-    std::vector<double> volumes;
-    for (const double value : area->values())
-      volumes.push_back(reduced * ball_volume(characteristic_radius(value)));
-    return area->with_values(std::move(volumes));
+/// The target of the volume that a reduced volume stands for.
+Schedule volume_of(const ConstraintOptions& options, const std::optional<Schedule>& area) {
+  const double reduced = *options.reduced_volume;
+  check_reduced({"reduced_volume", "-", "", Rule::positive}, reduced, Volume::key,
+                is_given(options.targets.of<Volume>()), area);
+  if (reduced > 1 + tolerance) {
+    refuse("reduced_volume", reduced, "must be <= 1: no surface of this area encloses more");
   }
-  const auto volume = resolve("volume", options.volume, start.volume);
-  if (volume) check_positive("volume", options.volume, *volume);
-  return volume;
+  std::vector<double> volumes;
+  for (const double value : area->values())
+    volumes.push_back(reduced * ball_volume(characteristic_radius(value)));
+  return area->with_values(std::move(volumes));
 }
 
 /// The volume against the area of the same time; what the start has is possible by itself.
 void check_reduced_volume(const ConstraintOptions& options, const Targets& targets) {
-  if (!targets.volume || !targets.area) return;
-  if (options.volume.kind == TargetKind::initial && options.area.kind == TargetKind::initial &&
+  const auto& volume = targets.of<Volume>();
+  const auto& area = targets.of<Area>();
+  if (!volume || !area) return;
+  const Target& volume_option = options.targets.of<Volume>();
+  const Target& area_option = options.targets.of<Area>();
+  if (volume_option.kind == TargetKind::initial && area_option.kind == TargetKind::initial &&
       !options.reduced_volume) {
     return;
   }
-  const double reduced = largest_reduced_volume(*targets.volume, *targets.area);
+  const double reduced = largest_reduced_volume(*volume, *area);
   if (reduced <= 1 + tolerance) return;
   const auto rule = fmt::format(
       "the reduced volume reaches {:.6g} with area = {}: must be <= 1: no surface of this area "
       "encloses more",
-      reduced, text_of(options.area, *targets.area));
+      reduced, text_of(area_option, *area));
   if (options.reduced_volume) {
     refuse("reduced_volume", *options.reduced_volume,
            rule + " (volume is linear between the times of the area)");
   }
-  refuse("volume", text_of(options.volume, *targets.volume), rule);
+  refuse(Volume::key, text_of(volume_option, *volume), rule);
 }
 
 void check_single_phase(const ConstraintOptions& options) {
   constexpr std::string_view rule = "must be left out: the vesicle has a single phase";
-  if (options.phase_difference.kind == TargetKind::prescribed) {
-    refuse("phase_difference", model::text_of(options.phase_difference.schedule), rule);
-  }
+  for_each_term<Constraints>([&]<class Constraint>() {
+    const Target& target = options.targets.of<Constraint>();
+    if (Constraint::needs_phase_field && target.kind == TargetKind::prescribed)
+      refuse(Constraint::key, model::text_of(target.schedule), rule);
+  });
   if (options.phase_fraction) refuse("phase_fraction", *options.phase_fraction, rule);
 }
 
@@ -179,42 +180,48 @@ void check_single_phase(const ConstraintOptions& options) {
 void check_phase_difference(const Target& target, const Schedule& phase, const Schedule& area) {
   const auto check = [&](double difference, double area_then) {
     if (std::abs(difference) < area_then * (1 - tolerance)) return;
-    refuse("phase_difference", text_of(target, phase),
+    refuse(PhaseDifference::key, text_of(target, phase),
            fmt::format("must lie between -area and area ({:.5g})", area_then));
   };
   for_each_extreme_time(phase, area,
                         [&](double time) { check(phase.value(time), area.value(time)); });
 }
 
-std::optional<Schedule> phase_target(const ConstraintOptions& options, const Measures& start,
-                                     const std::optional<Schedule>& area) {
-  if (options.phase_fraction) {
-    const double fraction = *options.phase_fraction;
-    check_reduced({"phase_fraction", "-", "", Rule::fraction}, fraction, "phase_difference",
-                  is_given(options.phase_difference), area);
-    if (fraction == 0 || fraction == 1) {
-      refuse("phase_fraction", fraction, "must lie between 0 and 1: one phase would be empty");
-    }
-    return area->scaled(1 - 2 * fraction);
+/// The target of the phase difference that a phase fraction stands for.
+Schedule phase_difference_of(const ConstraintOptions& options,
+                             const std::optional<Schedule>& area) {
+  const double fraction = *options.phase_fraction;
+  check_reduced({"phase_fraction", "-", "", Rule::fraction}, fraction, PhaseDifference::key,
+                is_given(options.targets.of<PhaseDifference>()), area);
+  if (fraction == 0 || fraction == 1) {
+    refuse("phase_fraction", fraction, "must lie between 0 and 1: one phase would be empty");
   }
-  const auto phase = resolve("phase_difference", options.phase_difference, start.phase_difference);
-  if (phase && area) check_phase_difference(options.phase_difference, *phase, *area);
-  return phase;
+  return area->scaled(1 - 2 * fraction);
 }
 
 }  // namespace
 
 Targets make_targets(const ConstraintOptions& options, const Measures& start, bool is_two_phase) {
   Targets targets;
-  targets.area = resolve("area", options.area, start.area);
-  if (targets.area) check_positive("area", options.area, *targets.area);
-  targets.volume = volume_target(options, start, targets.area);
+  for_each_term<Constraints>([&]<class Constraint>() {
+    if (Constraint::needs_phase_field && !is_two_phase) return;
+    targets.of<Constraint>() =
+        resolve(Constraint::key, options.targets.of<Constraint>(), start.of<Constraint>());
+  });
+  const auto& area = targets.of<Area>();
+  auto& volume = targets.of<Volume>();
+  if (area) check_positive(Area::key, options.targets.of<Area>(), *area);
+  if (options.reduced_volume) volume = volume_of(options, area);
+  if (volume) check_positive(Volume::key, options.targets.of<Volume>(), *volume);
   check_reduced_volume(options, targets);
-  if (is_two_phase) {
-    targets.phase_difference = phase_target(options, start, targets.area);
-  } else {
+  if (!is_two_phase) {
     check_single_phase(options);
+    return targets;
   }
+  auto& phase = targets.of<PhaseDifference>();
+  if (options.phase_fraction) phase = phase_difference_of(options, area);
+  if (phase && area && !options.phase_fraction)
+    check_phase_difference(options.targets.of<PhaseDifference>(), *phase, *area);
   return targets;
 }
 

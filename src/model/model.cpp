@@ -25,12 +25,10 @@ struct CollectSchedules {
 std::vector<NamedSchedule> schedules_of(const Model& model) {
   std::vector<NamedSchedule> result;
   MaterialOptions::fields(model.material, CollectSchedules{result});
-  const auto add = [&result](std::string_view key, const std::optional<Schedule>& target) {
-    if (target) result.push_back({"constraints", key, *target});
-  };
-  add("volume", model.targets.volume);
-  add("area", model.targets.area);
-  add("phase_difference", model.targets.phase_difference);
+  for_each_term<Constraints>([&]<class Constraint>() {
+    const auto& target = model.targets.of<Constraint>();
+    if (target) result.push_back({"constraints", Constraint::key, *target});
+  });
   return result;
 }
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "problem/constraint_kernel.hpp"
@@ -62,11 +61,7 @@ problem::Fields SemiImplicitProblem::fields_at(const SemiImplicitSolution& solut
   }
   if (layout_.is_two_phase())
     fields.order_parameter = solution.phase.col(0) - solution.phase.rightCols(m) * multipliers;
-  const auto value = [&](int constraint) -> std::optional<double> {
-    if (layout_.multiplier(constraint) < 0) return std::nullopt;
-    return multipliers[layout_.multiplier(constraint)];
-  };
-  fields.multipliers = {value(0), value(1), value(2)};
+  fields.multipliers = layout_.named(multipliers);
   return fields;
 }
 
@@ -74,10 +69,11 @@ std::array<double, model::num_constraints> SemiImplicitProblem::functionals(
     const problem::Fields& fields) const {
   std::vector<std::array<double, model::num_constraints>> elements(
       at(triangulation_->num_triangles()));
+  const model::Physics physics{{}, layout_.is_two_phase()};
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       elements[at(t)] = problem::element_constraint_values(
-          element_nodes(fields, triangulation_->triangles()[at(t)]), layout_.is_two_phase());
+          element_nodes(fields, triangulation_->triangles()[at(t)]), physics);
     }
   });
   std::array<double, model::num_constraints> sum{};
@@ -90,7 +86,7 @@ std::array<double, model::num_constraints> SemiImplicitProblem::functionals(
 Eigen::VectorXd SemiImplicitProblem::constraint_errors(const problem::Fields& fields,
                                                        double time) const {
   const auto measured = functionals(fields);
-  const auto targets = model_.targets.in_order();
+  const auto& targets = model_.targets;
   Eigen::VectorXd errors(layout_.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) >= 0)
@@ -101,8 +97,8 @@ Eigen::VectorXd SemiImplicitProblem::constraint_errors(const problem::Fields& fi
 
 Eigen::VectorXd SemiImplicitProblem::constraint_scales(const problem::Fields& fields,
                                                        double time) const {
-  const double area = functionals(fields)[1];
-  const auto targets = model_.targets.in_order();
+  const double area = functionals(fields)[model::place_of<model::Constraints, model::Area>];
+  const auto& targets = model_.targets;
   Eigen::VectorXd scales(layout_.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) < 0) continue;
@@ -116,6 +112,7 @@ Eigen::MatrixXd SemiImplicitProblem::constraint_slopes(const problem::Fields& fi
                                                        const SemiImplicitSolution& solution) const {
   const auto m = layout_.num_multipliers();
   using Slopes = Eigen::Matrix<double, model::num_constraints, model::num_constraints>;
+  const model::Material material;
   std::vector<Slopes> elements(at(triangulation_->num_triangles()), Slopes::Zero());
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
@@ -129,13 +126,11 @@ Eigen::MatrixXd SemiImplicitProblem::constraint_slopes(const problem::Fields& fi
           const auto change = displacement_at(solution, 1 + column, block_size(), triangle,
                                               point.shape, frame.normal);
           Eigen::Index row = 0;
-          const auto add = [&]<class Constraint>(const Constraint&) {
-            const auto v = Constraint::variation(surface);
+          model::for_each_term<model::Constraints>([&]<class Constraint>() {
+            const auto v = model::variation_of_term<Constraint>(material, surface);
             elements[at(t)](row++, column) += point.weight * frame.area_element *
                                               (v.a * change.normal + v.s * change.order_parameter);
-          };
-          std::apply([&](const auto&... constraint) { (add(constraint), ...); },
-                     model::Constraints{});
+          });
         }
       }
     }

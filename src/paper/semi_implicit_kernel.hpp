@@ -26,9 +26,9 @@ inline constexpr std::size_t count = 13;
 namespace side {
 inline constexpr std::size_t geometry = 0;     ///< x (3), kappa, beta_1, beta_2
 inline constexpr std::size_t constraints = 6;  ///< l, k, h
-inline constexpr std::size_t phase = 9;        ///< s
-inline constexpr std::size_t phase_constraints = 10;
-inline constexpr std::size_t count = 13;
+inline constexpr std::size_t phase = constraints + model::num_constraints;  ///< s
+inline constexpr std::size_t phase_constraints = phase + 1;
+inline constexpr std::size_t count = phase_constraints + model::num_constraints;
 }  // namespace side
 
 inline constexpr std::size_t num_node_pairs = 21;  ///< of an element, i <= j
@@ -191,14 +191,13 @@ inline void put_constraint_sides(const SemiImplicitContext& context,
                                  const model::SurfacePoint<double>& surface,
                                  std::array<Integrand, side::count>& out) {
   std::size_t index = 0;
-  const auto put = [&]<class Constraint>(const Constraint&) {
-    const auto v = Constraint::variation(surface);
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    const auto v = model::variation_of_term<Constraint>(context.point.physics.material, surface);
     const double tau = context.time_step;
     out[side::constraints + index] = integrand(frame, tau * v.a, tau * v.b);
     out[side::phase_constraints + index] = integrand(frame, tau * v.s, tau * v.q);
     ++index;
-  };
-  std::apply([&](const auto&... constraint) { (put(constraint), ...); }, model::Constraints{});
+  });
 }
 
 /// Pair and node integrals of one element, added up over the quadrature points.

@@ -45,13 +45,11 @@ problem::State prepared(problem::State start, const SemiImplicitProblem& problem
   } catch (const RecoverableError& trouble) {
     throw SolverError(fmt::format("initial values: {}", trouble.what()));
   }
-  const auto fill = [](std::optional<double>& multiplier, bool is_active) {
-    multiplier = is_active ? std::optional(multiplier.value_or(0)) : std::nullopt;
-  };
   const auto& layout = problem.layout();
-  fill(values.multipliers.volume, layout.multiplier(0) >= 0);
-  fill(values.multipliers.area, layout.multiplier(1) >= 0);
-  fill(values.multipliers.phase, layout.multiplier(2) >= 0);
+  for (int i = 0; i < model::num_constraints; ++i) {
+    auto& multiplier = values.multipliers[static_cast<std::size_t>(i)];
+    multiplier = layout.multiplier(i) >= 0 ? std::optional(multiplier.value_or(0)) : std::nullopt;
+  }
   start.rates = values;
   start.rates.positions.setZero();
   start.rates.mean_curvature.setZero();
@@ -64,11 +62,10 @@ problem::State prepared(problem::State start, const SemiImplicitProblem& problem
 
 Eigen::VectorXd active_multipliers(const problem::DofLayout& layout,
                                    const model::PerConstraint& values) {
-  const auto all = values.in_order();
   Eigen::VectorXd active(layout.num_multipliers());
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout.multiplier(i) >= 0)
-      active[layout.multiplier(i)] = all[static_cast<std::size_t>(i)].value_or(0);
+      active[layout.multiplier(i)] = values[static_cast<std::size_t>(i)].value_or(0);
   }
   return active;
 }

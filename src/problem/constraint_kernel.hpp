@@ -2,9 +2,10 @@
 
 #include <array>
 
+#include "local_form.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
-#include "vesica/model/two_phase.hpp"
+#include "vesica/model/model.hpp"
 
 namespace vesica::problem {
 
@@ -15,69 +16,87 @@ struct ElementNodes {
   std::array<T, 6> c;
 };
 
-/// Exact gradients of volume, area and phase difference with respect to the nodal values of an
-/// element.
+/// Exact gradients of the constrained functionals with respect to the nodal values of an element.
 template <class T>
 struct ConstraintGradients {
-  std::array<std::array<Vec3<T>, 6>, 3> dx{};
-  std::array<T, 6> dc{};  ///< of the phase difference; the others do not depend on c
+  std::array<std::array<Vec3<T>, 6>, model::num_constraints> dx{};
+  std::array<std::array<T, 6>, model::num_constraints> dc{};
 };
 
-template <class T>
-Vec3<T> interpolate_nodes(const std::array<Vec3<T>, 6>& nodes,
-                          const std::array<double, 6>& weights) {
-  Vec3<T> sum = weights[0] * nodes[0];
+/// Interpolates nodal values of an element, scalars or vectors, with the weights of the nodes.
+template <class V>
+V interpolate_nodes(const std::array<V, 6>& nodes, const std::array<double, 6>& weights) {
+  V sum = weights[0] * nodes[0];
   for (std::size_t i = 1; i < 6; ++i) sum = sum + weights[i] * nodes[i];
   return sum;
 }
 
 template <class T>
-T interpolate_nodes(const std::array<T, 6>& nodes, const std::array<double, 6>& weights) {
-  T sum = weights[0] * nodes[0];
-  for (std::size_t i = 1; i < 6; ++i) sum = sum + weights[i] * nodes[i];
-  return sum;
+PointFields<T> point_fields(const ElementNodes<T>& nodes, const fem::ShapeValues& shape,
+                            bool is_two_phase) {
+  PointFields<T> in;
+  in.x = interpolate_nodes(nodes.x, shape.value);
+  in.x_u = interpolate_nodes(nodes.x, shape.du);
+  in.x_v = interpolate_nodes(nodes.x, shape.dv);
+  in.c = is_two_phase ? interpolate_nodes(nodes.c, shape.value) : T(1.0);
+  return in;
 }
 
-/// Volume, area and phase difference of one element; with T = Dual<1>, also their rates.
+/// Calls visit.operator()<Constraint>(place, density) for the constraints that take part at a
+/// point. Their discrete functionals are functions of the positions and of c alone, so that (e) can
+/// be their exact derivative.
+template <class T, class Visit>
+void for_each_constraint(const model::Physics& physics, const model::LocalPoint<T>& point,
+                         const Visit& visit) {
+  std::size_t place = 0;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    static_assert(model::LocalTerm<Constraint>,
+                  "a constraint needs add_to(): a density that does not look at the curvature");
+    if (model::takes_part<Constraint>(physics)) {
+      model::LocalDensity<T> f;
+      Constraint::add_to(physics.material, point, 1.0, f);
+      visit(place, f);
+    }
+    ++place;
+  });
+}
+
+/// Values of the constrained functionals over one element; with T = Dual<1>, also their rates.
 template <class T>
-std::array<T, 3> element_constraint_values(const ElementNodes<T>& nodes, bool is_two_phase) {
-  std::array<T, 3> sum{};
+std::array<T, model::num_constraints> element_constraint_values(const ElementNodes<T>& nodes,
+                                                                const model::Physics& physics) {
+  std::array<T, model::num_constraints> sum{};
   for (const auto& point : fem::triangle_rule()) {
-    const auto& shape = point.shape;
-    const Vec3<T> normal = point.weight * cross(interpolate_nodes(nodes.x, shape.du),
-                                                interpolate_nodes(nodes.x, shape.dv));
-    const T area = norm(normal);
-    sum[0] += (1.0 / 3) * dot(interpolate_nodes(nodes.x, shape.value), normal);
-    sum[1] += area;
-    if (is_two_phase)
-      sum[2] += area * model::phase_indicator(interpolate_nodes(nodes.c, shape.value));
+    const auto in = point_fields(nodes, point.shape, physics.is_two_phase);
+    const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+    const T area = point.weight * frame.area_element;
+    for_each_constraint(
+        physics, local_point(in, frame),
+        [&](std::size_t place, const model::LocalDensity<T>& f) { sum[place] += area * f.value; });
   }
   return sum;
 }
 
-/// The gradient of the volume is int phi_i nu, which is exact for the closed surface as a whole:
-/// the boundary terms of neighbouring elements cancel, and the rule integrates both forms exactly.
 template <class T>
 ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes,
-                                                    bool is_two_phase) {
+                                                    const model::Physics& physics) {
   ConstraintGradients<T> sum;
   for (const auto& point : fem::triangle_rule()) {
     const auto& shape = point.shape;
-    const auto frame = fem::tangent_frame(interpolate_nodes(nodes.x, shape.du),
-                                          interpolate_nodes(nodes.x, shape.dv));
-    const T area = point.weight * frame.area_element;
-    const Vec3<T> oriented = area * frame.normal;
-    const T c = is_two_phase ? interpolate_nodes(nodes.c, shape.value) : T(0.0);
-    const T h = model::phase_indicator(c);
-    const T h_prime = model::phase_indicator_derivative(c);
-    for (std::size_t i = 0; i < 6; ++i) {
-      const Vec3<T> gradient = area * fem::surface_gradient(frame, shape.du[i], shape.dv[i]);
-      sum.dx[0][i] = sum.dx[0][i] + shape.value[i] * oriented;
-      sum.dx[1][i] = sum.dx[1][i] + gradient;
-      if (!is_two_phase) continue;
-      sum.dx[2][i] = sum.dx[2][i] + h * gradient;
-      sum.dc[i] = sum.dc[i] + shape.value[i] * (area * h_prime);
-    }
+    const auto in = point_fields(nodes, shape, physics.is_two_phase);
+    const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+    const auto at = local_point(in, frame);
+    for_each_constraint(physics, at, [&](std::size_t place, const model::LocalDensity<T>& f) {
+      const auto d = derivative_of(f, at, in, frame, physics.is_two_phase);
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double value = point.weight * shape.value[i];
+        const double du = point.weight * shape.du[i];
+        const double dv = point.weight * shape.dv[i];
+        sum.dx[place][i] = sum.dx[place][i] + value * d.x + du * d.x_u + dv * d.x_v;
+        if (physics.is_two_phase)
+          sum.dc[place][i] = sum.dc[place][i] + value * d.c + du * d.c_u + dv * d.c_v;
+      }
+    });
   }
   return sum;
 }

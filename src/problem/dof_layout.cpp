@@ -4,6 +4,7 @@ namespace vesica::problem {
 
 DofLayout::DofLayout(mesh::NodeIndex num_nodes, const model::Model& model)
     : num_nodes_(num_nodes), is_two_phase_(model.is_two_phase) {
+  multipliers_.fill(-1);
   for (const int place : model::active_constraints(model))
     multipliers_[static_cast<std::size_t>(place)] = num_multipliers_++;
 }
@@ -16,9 +17,9 @@ Eigen::VectorXd DofLayout::pack(const Fields& fields) const {
     flat[i * block + 3] = fields.mean_curvature[i];
     if (is_two_phase_) flat[i * block + 4] = fields.order_parameter[i];
   }
-  const auto values = fields.multipliers.in_order();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (multipliers_[i] >= 0) flat[num_nodal() + multipliers_[i]] = values[i].value_or(0.0);
+  for (std::size_t i = 0; i < multipliers_.size(); ++i) {
+    if (multipliers_[i] >= 0)
+      flat[num_nodal() + multipliers_[i]] = fields.multipliers[i].value_or(0.0);
   }
   return flat;
 }
@@ -34,12 +35,16 @@ Fields DofLayout::unpack(const Eigen::Ref<const Eigen::VectorXd>& flat) const {
     fields.mean_curvature[i] = flat[i * block + 3];
     if (is_two_phase_) fields.order_parameter[i] = flat[i * block + 4];
   }
-  const auto value = [&](int constraint) -> std::optional<double> {
-    if (multiplier(constraint) < 0) return std::nullopt;
-    return flat[num_nodal() + multiplier(constraint)];
-  };
-  fields.multipliers = {value(0), value(1), value(2)};
+  fields.multipliers = named(flat.tail(num_multipliers_));
   return fields;
+}
+
+model::PerConstraint DofLayout::named(const Eigen::Ref<const Eigen::VectorXd>& multipliers) const {
+  model::PerConstraint result;
+  for (std::size_t i = 0; i < multipliers_.size(); ++i) {
+    if (multipliers_[i] >= 0) result[i] = multipliers[multipliers_[i]];
+  }
+  return result;
 }
 
 Eigen::VectorXd DofLayout::differential_mask() const {

@@ -207,28 +207,28 @@ void add_element_jacobian(const EquationContext& context, const JacobianWeights&
 }
 
 /// Derivative of the element residual with respect to the multipliers: the variations of the
-/// constraints, added to `local` of shape (6, Block, 3).
+/// constraints, added to `local` of shape (6, Block, number of constraints).
 template <int Block>
-void add_multiplier_columns(const ElementValues& element, double* local) {
+void add_multiplier_columns(const model::Physics& physics, const ElementValues& element,
+                            double* local) {
   for (const auto& point : fem::triangle_rule()) {
     const auto& shape = point.shape;
     const auto in = point_inputs(element, shape);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const auto surface = surface_point(in, frame, interpolated_shape_operator(element, shape));
-    std::size_t index = 0;
-    const auto add = [&]<class Constraint>(const Constraint&) {
+    std::size_t place = 0;
+    model::for_each_term<model::Constraints>([&]<class Constraint>() {
       PointOutputs<double> out;
-      put_variation(Constraint::variation(surface), frame, out);
+      put_variation(model::variation_of_term<Constraint>(physics.material, surface), frame, out);
       for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t r = velocity_row; r < Block; ++r) {
-          local[(i * Block + r) * 3 + index] +=
+          local[(i * Block + r) * model::num_constraints + place] +=
               point.weight *
               (shape.value[i] * out[r][0] + shape.du[i] * out[r][1] + shape.dv[i] * out[r][2]);
         }
       }
-      ++index;
-    };
-    std::apply([&](const auto&... constraint) { (add(constraint), ...); }, model::Constraints{});
+      ++place;
+    });
   }
 }
 

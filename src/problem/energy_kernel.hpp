@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "local_form.hpp"
 #include "vesica/core/small_tensor.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/model/two_phase.hpp"
@@ -12,82 +13,88 @@ namespace vesica::problem {
 /// Fields of the dual mixed energy at a quadrature point, with their derivatives along (u, v); also
 /// the derivative of an integrand with respect to them.
 template <class T>
-struct EnergyPoint {
-  Vec3<T> x, x_u, x_v;  ///< position [length]
+struct EnergyPoint : PointFields<T> {
   Vec3<T> p, p_u, p_v;  ///< bending moment -k_kappa (kappa - kappa_s) nu [energy/length]
-  T c{}, c_u{}, c_v{};  ///< order parameter
 };
 
-/// Integrands of bending and line energy, times the area element.
-struct EnergyDensities {
-  double bending = 0;
-  double line = 0;
-};
+/// True for the energies that E_h does not take from a density without curvature: each has a form
+/// of its own, in this file and in gaussian_kernel.hpp. Others need add_to() or do not compile.
+template <class Energy>
+inline constexpr bool has_own_discrete_form = false;
+template <>
+inline constexpr bool has_own_discrete_form<model::BendingEnergy> = true;
+template <>
+inline constexpr bool has_own_discrete_form<model::GaussianEnergy> = true;
 
-/// With n = x_u x x_v, N = |n| and w = c_u x_v - c_v x_u:
+/// Computes the integrand of the bending energy times N. With n = x_u x x_v, N = |n|:
 ///
-///   N grad x : grad p = nu . (p_u x x_v + x_u x p_v),    N |grad c|^2 = |w|^2 / N.
-inline EnergyDensities energy_densities(const model::Physics& physics,
-                                        const EnergyPoint<double>& in) {
+///   N grad x : grad p = nu . (p_u x x_v + x_u x p_v).
+inline double bending_density(const model::Physics& physics, const EnergyPoint<double>& in) {
   const auto& m = physics.material;
   const auto n = cross(in.x_u, in.x_v);
   const double area = norm(n);
-  EnergyDensities result;
-  result.bending = (1 / area) * dot(n, cross(in.p_u, in.x_v) + cross(in.x_u, in.p_v)) +
-                   model::interpolate(m.spontaneous_curvature, in.c) * dot(n, in.p) -
-                   0.5 * area * dot(in.p, in.p) / model::interpolate(m.bending_rigidity, in.c);
-  if (!physics.is_two_phase) return result;
-  const auto w = in.c_u * in.x_v - in.c_v * in.x_u;
-  result.line = m.line_tension * (0.5 * m.interface_width * dot(w, w) / area +
-                                  area * model::double_well(in.c) / m.interface_width);
-  return result;
+  return (1 / area) * dot(n, cross(in.p_u, in.x_v) + cross(in.x_u, in.p_v)) +
+         model::interpolate(m.spontaneous_curvature, in.c) * dot(n, in.p) -
+         0.5 * area * dot(in.p, in.p) / model::interpolate(m.bending_rigidity, in.c);
 }
 
-/// Derivative of the integrand of E_h without the Gaussian term,
+/// Adds the integrands, times the area element and `weight`, of all energies but the Gaussian one.
+inline void add_densities(const model::Physics& physics, const EnergyPoint<double>& in,
+                          double weight, std::array<double, model::num_energies>& sum) {
+  const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+  const auto point = local_point(in, frame);
+  sum[model::place_of<model::Energies, model::BendingEnergy>] +=
+      weight * bending_density(physics, in);
+  std::size_t place = 0;
+  model::for_each_term<model::Energies>([&]<class Energy>() {
+    if constexpr (model::LocalTerm<Energy>) {
+      model::LocalDensity<double> f;
+      if (model::takes_part<Energy>(physics)) Energy::add_to(physics.material, point, 1.0, f);
+      sum[place] += weight * frame.area_element * f.value;
+    } else {
+      static_assert(has_own_discrete_form<Energy>,
+                    "an energy needs add_to(), or a form of its own in the discrete energy");
+    }
+    ++place;
+  });
+}
+
+/// Computes the derivative of the integrand of E_h + sum lambda_i C_i without the Gaussian term,
 ///
-///   N [grad x : grad p + kappa_s nu . p - |p|^2 / (2 k) + sigma (eps/2 |grad c|^2 + psi / eps)]
+///   N [grad x : grad p + kappa_s nu . p - |p|^2 / (2 k) + local energies + sum lambda_i f_i],
 ///
-/// (N the area element), plus lambda_V x . n / 3 + lambda_A N + lambda_c N h(c).
+/// N the area element.
 template <class T>
 EnergyPoint<T> energy_point_gradient(const model::Physics& physics, const Multipliers& multipliers,
                                      const EnergyPoint<T>& in) {
   const auto& m = physics.material;
-  const Vec3<T> n = cross(in.x_u, in.x_v);
-  const T area = norm(n);
-  const T inverse = 1.0 / area;
-  const Vec3<T> nu = inverse * n;
+  const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+  const Vec3<T>& nu = frame.normal;
+  const T& area = frame.area_element;
+  const auto point = local_point(in, frame);
+  model::LocalDensity<T> local;
+  add_local_terms<model::Energies>(
+      physics, point, [](std::size_t) { return 1.0; }, local);
+  add_local_terms<model::Constraints>(
+      physics, point, [&](std::size_t place) { return multipliers[place]; }, local);
+
   const T k = model::interpolate(m.bending_rigidity, in.c);
   const T curvature = model::interpolate(m.spontaneous_curvature, in.c);
   const T p_squared = dot(in.p, in.p);
   const Vec3<T> moment = cross(in.p_u, in.x_v) + cross(in.x_u, in.p_v);
-
-  // q: derivative with respect to n
-  T along_normal = -0.5 * p_squared / k + multipliers[1];
-  EnergyPoint<T> out;
+  local.value = local.value - 0.5 * p_squared / k;
   if (physics.is_two_phase) {
-    const double sigma = m.line_tension;
-    const double eps = m.interface_width;
-    const Vec3<T> w = in.c_u * in.x_v - in.c_v * in.x_u;
-    const Vec3<T> w_scaled = (sigma * eps * inverse) * w;
-    along_normal = along_normal + (sigma / eps) * model::double_well(in.c) +
-                   multipliers[2] * model::phase_indicator(in.c) -
-                   (0.5 * inverse) * dot(w_scaled, w);
-    out.x_u = -(in.c_v * w_scaled);
-    out.x_v = in.c_u * w_scaled;
-    out.c_u = dot(w_scaled, in.x_v);
-    out.c_v = -dot(w_scaled, in.x_u);
-    out.c = model::interpolate_derivative(m.spontaneous_curvature, in.c) * dot(n, in.p) +
-            area * (0.5 * p_squared / (k * k) *
-                        model::interpolate_derivative(m.bending_rigidity, in.c) +
-                    (sigma / eps) * model::double_well_derivative(in.c) +
-                    multipliers[2] * model::phase_indicator_derivative(in.c));
+    local.by_order_parameter +=
+        model::interpolate_derivative(m.spontaneous_curvature, in.c) * dot(nu, in.p) +
+        0.5 * p_squared / (k * k) * model::interpolate_derivative(m.bending_rigidity, in.c);
   }
-  const Vec3<T> q = inverse * (moment - dot(nu, moment) * nu) + curvature * in.p +
-                    along_normal * nu + (multipliers[0] / 3) * in.x;
-  out.x = (multipliers[0] / 3) * n;
-  out.x_u = out.x_u + cross(in.x_v, q) + cross(in.p_v, nu);
-  out.x_v = out.x_v + cross(q, in.x_u) + cross(nu, in.p_u);
-  out.p = curvature * n - (area / k) * in.p;
+  const Vec3<T> bending_by_n = (1.0 / area) * (moment - dot(nu, moment) * nu) + curvature * in.p;
+  EnergyPoint<T> out;
+  static_cast<PointFields<T>&>(out) =
+      derivative_of<T>(local, point, in, frame, physics.is_two_phase, bending_by_n);
+  out.x_u = out.x_u + cross(in.p_v, nu);
+  out.x_v = out.x_v + cross(nu, in.p_u);
+  out.p = area * (curvature * nu - (1.0 / k) * in.p);
   out.p_u = cross(in.x_v, nu);
   out.p_v = cross(nu, in.x_u);
   return out;

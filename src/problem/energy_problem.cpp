@@ -141,7 +141,7 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
   const auto physics = model_.at(time);
   const auto count = at(triangulation_->num_triangles());
   std::vector<double> mass(count * 36, 0.0);
-  std::vector<double> rhs(count * 18, 0.0);
+  std::vector<double> rhs(count * 6 * 3, 0.0);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
@@ -153,7 +153,7 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
                                model::interpolate(physics.material.bending_rigidity, in.c);
         for (std::size_t i = 0; i < 6; ++i) {
           add(point.weight * test_with(shape, i, out.p, out.p_u, out.p_v),
-              &rhs[at(t) * 18 + 3 * i]);
+              &rhs[(at(t) * 6 + i) * 3]);
           for (std::size_t j = 0; j < 6; ++j)
             mass[at(t) * 36 + 6 * i + j] += density * shape.value[i] * shape.value[j];
         }
@@ -172,32 +172,32 @@ EnergyFields EnergyProblem::fields(const mesh::Positions& positions,
 model::EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
   const auto physics = model_.at(fields.time);
   const auto count = at(triangulation_->num_triangles());
-  std::vector<std::array<double, 3>> parts(count);
+  std::vector<std::array<double, model::num_energies>> parts(count);
+  constexpr auto gaussian = model::place_of<model::Energies, model::GaussianEnergy>;
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto& triangle = triangulation_->triangles()[at(t)];
       auto element = energy_element(fields, {}, triangle);
-      for (const auto& point : fem::triangle_rule()) {
-        const auto density = energy_densities(physics, energy_point(element, point.shape));
-        parts[at(t)][0] += point.weight * density.bending;
-        parts[at(t)][2] += point.weight * density.line;
-      }
+      for (const auto& point : fem::triangle_rule())
+        add_densities(physics, energy_point(element, point.shape), point.weight, parts[at(t)]);
       if (!has_gaussian_term(physics)) continue;
       for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      parts[at(t)][1] = gaussian_energy(physics, element);
+      parts[at(t)][gaussian] = gaussian_energy(physics, element);
     }
   });
   model::EnergyParts sum;
-  double line = 0;
-  for (const auto& part : parts) {
-    sum.bending += part[0];
-    sum.gaussian += part[1];
-    line += part[2];
-  }
+  std::size_t place = 0;
+  model::for_each_term<model::Energies>([&]<class Energy>() {
+    if (model::takes_part<Energy>(physics)) {
+      double total = 0;
+      for (const auto& part : parts) total += part[place];
+      sum[place] = total;
+    }
+    ++place;
+  });
   const auto& k_g = physics.material.gaussian_rigidity;
   const double mean = model_.is_two_phase ? 0.5 * (k_g.phase_1 + k_g.phase_2) : k_g.phase_1;
-  sum.gaussian += mean * 2 * std::numbers::pi * triangulation_->euler_characteristic();
-  if (model_.is_two_phase) sum.line = line;
+  *sum[gaussian] += mean * 2 * std::numbers::pi * triangulation_->euler_characteristic();
   check_finite(std::isfinite(sum.total()), "the value");
   return sum;
 }
@@ -241,33 +241,38 @@ ConstraintEvaluation EnergyProblem::assemble_constraints(const EnergyFields& fie
                                                          const EnergyRates& rates,
                                                          const Take& take) const {
   const auto count = at(triangulation_->num_triangles());
-  std::vector<double> local(count * 60, 0.0);
-  std::vector<std::array<double, 3>> values(count);
+  constexpr std::size_t num = model::num_constraints;
+  constexpr std::size_t row_size = 4 * num;  // of a node: for each constraint x (3) and c
+  std::vector<double> local(count * 6 * row_size, 0.0);
+  std::vector<std::array<double, num>> values(count);
+  const auto physics = model_.at(fields.time);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto element = energy_element(fields, rates, triangulation_->triangles()[at(t)]);
       const auto nodes = constraint_nodes<T>(element);
-      const auto sums = element_constraint_values(nodes, model_.is_two_phase);
-      const auto gradients = element_constraint_gradients(nodes, model_.is_two_phase);
-      for (std::size_t k = 0; k < 3; ++k) values[at(t)][k] = take(sums[k]);
-      for (std::size_t i = 0; i < 6; ++i) {
-        double* row = &local[at(t) * 60 + 10 * i];
-        for (std::size_t k = 0; k < 3; ++k) {
+      const auto sums = element_constraint_values(nodes, physics);
+      const auto gradients = element_constraint_gradients(nodes, physics);
+      for (std::size_t k = 0; k < num; ++k) {
+        values[at(t)][k] = take(sums[k]);
+        for (std::size_t i = 0; i < 6; ++i) {
+          double* row = &local[(at(t) * 6 + i) * row_size + 4 * k];
           const auto& g = gradients.dx[k][i];
-          add({take(g.x), take(g.y), take(g.z)}, row + 3 * k);
+          add({take(g.x), take(g.y), take(g.z)}, row);
+          row[3] = take(gradients.dc[k][i]);
         }
-        row[9] = take(gradients.dc[i]);
       }
     }
   });
-  const Eigen::MatrixXd sums = gather(graph_, local, 10, threads_);
+  const Eigen::MatrixXd sums = gather(graph_, local, row_size, threads_);
   ConstraintEvaluation result;
   for (const auto& value : values) {
-    for (std::size_t k = 0; k < 3; ++k) result.values[k] += value[k];
+    for (std::size_t k = 0; k < num; ++k) result.values[k] += value[k];
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    result.positions[k] = sums.middleCols<3>(static_cast<Eigen::Index>(3 * k));
-  if (model_.is_two_phase) result.order_parameter = sums.col(9);
+  for (std::size_t k = 0; k < num; ++k) {
+    const auto column = static_cast<Eigen::Index>(4 * k);
+    result.positions[k] = sums.middleCols<3>(column);
+    if (model_.is_two_phase) result.order_parameter[k] = sums.col(column + 3);
+  }
   return result;
 }
 

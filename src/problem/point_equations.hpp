@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <tuple>
 
 #include "vesica/fem/surface_element.hpp"
 #include "vesica/model/model.hpp"
@@ -35,24 +34,9 @@ using PointOutputs = std::array<std::array<T, 3>, 5>;
 inline constexpr std::size_t velocity_row = 3;
 inline constexpr std::size_t phase_row = 4;
 
-template <class T>
-model::Variation<T>& operator+=(model::Variation<T>& sum, const model::Variation<T>& term) {
-  sum.a = sum.a + term.a;
-  sum.b = sum.b + term.b;
-  sum.s = sum.s + term.s;
-  sum.q = sum.q + term.q;
-  return sum;
-}
-
 /// eps omega, the weight of c' in (d) [length^2].
 inline double phase_mobility(const model::Physics& physics) {
   return physics.material.interface_width * physics.material.kinetic_coefficient;
-}
-
-/// Whether a functional takes part: those of the phase field only where there is one.
-template <class Functional>
-constexpr bool takes_part(const model::Physics& physics) {
-  return physics.is_two_phase || !Functional::needs_phase_field;
 }
 
 template <class T>
@@ -68,26 +52,33 @@ model::SurfacePoint<T> surface_point(const PointInputs<T>& in, const fem::Tangen
   return point;
 }
 
+/// Adds `factor` times the variation of a term: at once where the term has one of its own, else to
+/// the density, whose variation is taken once for all.
+template <class Term, class T>
+void add_variation(const model::Physics& physics, const model::SurfacePoint<T>& point,
+                   double factor, model::Variation<T>& sum, model::LocalDensity<T>& local) {
+  if (factor == 0 || !model::takes_part<Term>(physics)) return;
+  if constexpr (model::HasVariation<Term>) {
+    sum.add(factor, Term::variation(physics.material, point));
+  } else {
+    const model::LocalPoint<T>& without_curvature = point;
+    Term::add_to(physics.material, without_curvature, factor, local);
+  }
+}
+
 /// Variation of the energy plus multipliers times constraints: dF + sum lambda_i dC_i.
 template <class T>
 model::Variation<T> lagrangian_variation(const PointSettings& settings,
                                          const model::SurfacePoint<T>& point) {
-  const auto& physics = settings.physics;
   model::Variation<T> sum;
-  const auto add_energy = [&]<class Energy>(const Energy&) {
-    if (takes_part<Energy>(physics)) sum += Energy::variation(physics.material, point);
-  };
-  std::apply([&](const auto&... energy) { (add_energy(energy), ...); }, model::Energies{});
-  std::size_t index = 0;
-  const auto add_constraint = [&]<class Constraint>(const Constraint&) {
-    const double lambda = settings.multipliers[index++];
-    if (lambda == 0 || !takes_part<Constraint>(physics)) return;
-    const auto v = Constraint::variation(point);
-    sum.a = sum.a + lambda * v.a;
-    if constexpr (Constraint::needs_phase_field) sum.s = sum.s + lambda * v.s;
-  };
-  std::apply([&](const auto&... constraint) { (add_constraint(constraint), ...); },
-             model::Constraints{});
+  model::LocalDensity<T> local;
+  model::for_each_term<model::Energies>(
+      [&]<class Energy>() { add_variation<Energy>(settings.physics, point, 1, sum, local); });
+  std::size_t place = 0;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    add_variation<Constraint>(settings.physics, point, settings.multipliers[place++], sum, local);
+  });
+  sum.add(1.0, variation_of(local, point));
   return sum;
 }
 

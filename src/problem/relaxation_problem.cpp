@@ -128,10 +128,9 @@ Eigen::VectorXd RelaxationProblem::residual(const EquationSettings& settings, do
   fem::gather_nodal(graph_, local, threads_,
                     Eigen::Map<Rows>(result.data(), layout_.num_nodes(), layout_.block_size()));
   const auto measured = constraints(y, y_rate);
-  const auto targets = model_.targets.in_order();
   for (int i = 0; i < model::num_constraints; ++i) {
     if (layout_.multiplier(i) < 0) continue;
-    const auto& target = *targets[at(i)];
+    const auto& target = *model_.targets[at(i)];
     const double error = measured.value[at(i)] - target.value(time);
     result[layout_.num_nodal() + layout_.multiplier(i)] =
         settings.form == ConstraintForm::original
@@ -184,11 +183,13 @@ void RelaxationProblem::assemble_block(const EquationContext& context,
 template <int Block>
 void RelaxationProblem::assemble_columns(const EquationContext& context,
                                          Eigen::MatrixXd& columns) const {
-  std::vector<double> local(at(triangulation_->num_triangles()) * 18 * Block, 0.0);
+  constexpr std::size_t element_size = 6 * Block * model::num_constraints;
+  std::vector<double> local(at(triangulation_->num_triangles()) * element_size, 0.0);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      add_multiplier_columns<Block>(element_values(context, triangulation_->triangles()[at(t)]),
-                                    &local[at(t) * 18 * Block]);
+      add_multiplier_columns<Block>(context.point.physics,
+                                    element_values(context, triangulation_->triangles()[at(t)]),
+                                    &local[at(t) * element_size]);
     }
   });
   columns.setZero();
@@ -198,7 +199,7 @@ void RelaxationProblem::assemble_columns(const EquationContext& context,
         for (int i = 0; i < model::num_constraints; ++i) {
           if (layout_.multiplier(i) < 0) continue;
           columns(static_cast<Eigen::Index>(at(node) * Block + r), layout_.multiplier(i)) +=
-              local[(at(code) * Block + r) * 3 + at(i)];
+              local[(at(code) * Block + r) * model::num_constraints + at(i)];
         }
       }
     }
@@ -216,10 +217,11 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
   const auto entry = [&](const Dual<1>& g) {
     return gradient_weight * g.value + second_weight * g.derivatives[0];
   };
+  const model::Physics physics{{}, layout_.is_two_phase()};
   rows.setZero();
   for (const auto& triangle : triangulation_->triangles()) {
-    const auto element = element_constraint_gradients(
-        nodes_with_rates(layout_, triangle, y, y_rate), layout_.is_two_phase());
+    const auto element =
+        element_constraint_gradients(nodes_with_rates(layout_, triangle, y, y_rate), physics);
     for (int k = 0; k < model::num_constraints; ++k) {
       const int row = layout_.multiplier(k);
       if (row < 0) continue;
@@ -229,7 +231,7 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
         rows(row, first) += entry(gradient.x);
         rows(row, first + 1) += entry(gradient.y);
         rows(row, first + 2) += entry(gradient.z);
-        if (k == 2) rows(row, first + 4) += entry(element.dc[i]);
+        if (layout_.is_two_phase()) rows(row, first + 4) += entry(element.dc[at(k)][i]);
       }
     }
   }
@@ -237,13 +239,13 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
 
 ConstraintValues RelaxationProblem::constraints(const Eigen::VectorXd& y,
                                                 const Eigen::VectorXd& y_rate) const {
+  const model::Physics physics{{}, layout_.is_two_phase()};
   std::vector<std::array<Dual<1>, model::num_constraints>> elements(
       at(triangulation_->num_triangles()));
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       elements[at(t)] = element_constraint_values(
-          nodes_with_rates(layout_, triangulation_->triangles()[at(t)], y, y_rate),
-          layout_.is_two_phase());
+          nodes_with_rates(layout_, triangulation_->triangles()[at(t)], y, y_rate), physics);
     }
   });
   ConstraintValues sum;

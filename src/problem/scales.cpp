@@ -9,8 +9,8 @@ namespace vesica::problem {
 
 Scales scales_of(const model::Model& model, const State& start) {
   double area = 0;
-  if (model.targets.area) {
-    area = model.targets.area->last();
+  if (model.targets.of<model::Area>()) {
+    area = model.targets.of<model::Area>()->last();
   } else {
     fem::for_each_point(*start.triangulation, start.values.positions,
                         [&](const fem::SurfaceSample& sample) { area += sample.weight; });

@@ -87,7 +87,7 @@ Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
     y[i * block + displacement] = moved.row(i).dot(graph_.directions.row(i));
     if (block == 5) y[i * block + phase] = start.values.order_parameter[i];
   }
-  const auto values = start.values.multipliers.in_order();
+  const auto& values = start.values.multipliers;
   for (std::size_t k = 0; k < active_.size(); ++k)
     y[num_nodal() + static_cast<Eigen::Index>(k)] = values[at(active_[k])].value_or(0.0);
   return y;
@@ -100,10 +100,8 @@ Fields VariationalProblem::values(double time, const Eigen::VectorXd& y) const {
   result.positions = now.positions;
   result.order_parameter = now.order_parameter;
   result.mean_curvature = energy_.mean_curvature(now);
-  std::array<std::optional<double>, model::num_constraints> named;
   const auto weights = multipliers(y);
-  for (const int k : active_) named[at(k)] = weights[at(k)];
-  result.multipliers = model::PerConstraint::from(named);
+  for (const int k : active_) result.multipliers[at(k)] = weights[at(k)];
   return result;
 }
 
@@ -162,13 +160,12 @@ Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, d
     if (block == 5) result[i * block + phase] = gradient.order_parameter[i];
   }
   const bool is_original = settings.form == ConstraintForm::original;
-  const auto targets = model().targets.in_order();
   for (std::size_t k = 0; k < active_.size(); ++k) {
     const int which = active_[k];
-    const auto& target = *targets[at(which)];
+    const auto& target = *model().targets[at(which)];
     const double error = constraints.values[at(which)] - target.value(time);
     double rate = constraints.positions[at(which)].cwiseProduct(rates.velocity).sum();
-    if (which == 2) rate += constraints.order_parameter.dot(rates.order_parameter);
+    if (block == 5) rate += constraints.order_parameter[at(which)].dot(rates.order_parameter);
     result[num_nodal() + static_cast<Eigen::Index>(k)] =
         is_original ? error : rate - target.rate(time) + settings.constraint_rate * error;
   }
@@ -203,7 +200,7 @@ Eigen::MatrixXd VariationalProblem::constraint_columns(
     auto column = columns.col(static_cast<Eigen::Index>(k));
     for (Eigen::Index i = 0; i < gradient.rows(); ++i) {
       column[i * block + displacement] = gradient.row(i).dot(graph_.directions.row(i));
-      if (active_[k] == 2) column[i * block + phase] = constraints.order_parameter[i];
+      if (block == 5) column[i * block + phase] = constraints.order_parameter[at(active_[k])][i];
     }
   }
   return columns;

@@ -49,20 +49,40 @@ problem::Fields carried_over(const mesh::Triangulation& old,
   return result;
 }
 
-/// V, A and, with two phases, int h(c).
+/// V, A and, with two phases, int h(c): the constrained functionals that the state has.
 Eigen::VectorXd integrals_of(const problem::State& state) {
-  const auto measured = measure::measure({{}, state.is_two_phase(), {}}, state);
-  Eigen::VectorXd integrals(state.is_two_phase() ? 3 : 2);
-  integrals.head<2>() << measured.volume, measured.area;
-  if (state.is_two_phase()) integrals[2] = *measured.phase_difference;
-  return integrals;
+  const auto measured = measure::measure({{}, state.is_two_phase(), {}}, state).measures;
+  std::vector<double> present;
+  for (const auto& value : measured.values) {
+    if (value) present.push_back(*value);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(present.data(),
+                                           static_cast<Eigen::Index>(present.size()));
+}
+
+/// Directions in which the functionals are restored: along the normals by the variation of each, or
+/// in c by that of the ones that depend on it.
+std::vector<adapt::NodalChange> restoring_changes(const problem::State& state) {
+  const Eigen::Index n = state.values.positions.rows();
+  std::vector<adapt::NodalChange> changes;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    if (Constraint::needs_phase_field && !state.is_two_phase()) return;
+    Eigen::VectorXd change(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      model::SurfacePoint<double> point{};
+      point.mean_curvature = state.values.mean_curvature[i];
+      point.order_parameter = state.is_two_phase() ? state.values.order_parameter[i] : 1;
+      const auto v = model::variation_of_term<Constraint>({}, point);
+      change[i] = Constraint::needs_phase_field ? v.s : v.a;
+    }
+    changes.push_back(Constraint::needs_phase_field ? adapt::NodalChange{{}, change}
+                                                    : adapt::NodalChange{change, {}});
+  });
+  return changes;
 }
 
 void restore(problem::State& state, const Eigen::VectorXd& targets) {
-  const Eigen::VectorXd phase_derivative = state.values.order_parameter.unaryExpr(
-      [](double c) { return model::phase_indicator_derivative(c); });
-  const auto directions =
-      adapt::restoring_directions(state.surface(), state.values.mean_curvature, phase_derivative);
+  const auto directions = adapt::restoring_directions(state.surface(), restoring_changes(state));
   problem::State trial = state;
   const auto integrals = [&trial](const adapt::RestorableFields& fields) {
     trial.values.positions = fields.positions;

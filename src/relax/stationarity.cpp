@@ -12,15 +12,20 @@ namespace vesica::relax {
 namespace {
 
 /// Multipliers in k/R_c^3 (volume) and k/R_c^2 (area, phase), so that they can be compared.
-std::array<double, 3> in_natural_units(const model::PerConstraint& multipliers, double radius,
-                                       double rigidity) {
-  const double unit = rigidity / (radius * radius);
-  return {multipliers.volume.value_or(0) * radius / unit, multipliers.area.value_or(0) / unit,
-          multipliers.phase.value_or(0) / unit};
+std::array<double, model::num_constraints> in_natural_units(const model::PerConstraint& multipliers,
+                                                            double radius, double rigidity) {
+  std::array<double, model::num_constraints> result{};
+  std::size_t place = 0;
+  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    result[place] =
+        multipliers[place].value_or(0) * std::pow(radius, Constraint::length_power) / rigidity;
+    ++place;
+  });
+  return result;
 }
 
 double characteristic_radius(const measure::Diagnostics& diagnostics) {
-  return std::sqrt(diagnostics.area / (4 * std::numbers::pi));
+  return std::sqrt(diagnostics.measures.area() / (4 * std::numbers::pi));
 }
 
 }  // namespace
@@ -56,7 +61,7 @@ double Stationarity::normal_velocity(const measure::Diagnostics& diagnostics) {
 }
 
 bool Stationarity::meets_constraints(const measure::Diagnostics& diagnostics) const {
-  const auto errors = diagnostics.constraint_errors.in_order();
+  const auto& errors = diagnostics.constraint_errors.values;
   return std::all_of(errors.begin(), errors.end(), [&](const auto& error) {
     return std::abs(error.value_or(0)) < options_.constraint;
   });

@@ -152,20 +152,21 @@ bool stays_near(const model::Schedule& target, double value) {
 void untie_sphere(Case& vesicle) {
   model::Targets& targets = vesicle.model.targets;
   const auto& [start, is_sphere] = vesicle.origin;
-  if (!targets.volume || !targets.area || !is_sphere) return;
-  if (!stays_near(*targets.volume, start.volume) || !stays_near(*targets.area, start.area)) {
+  const auto& volume = targets.of<model::Volume>();
+  auto& area = targets.of<model::Area>();
+  if (!volume || !area || !is_sphere) return;
+  if (!stays_near(*volume, start.volume()) || !stays_near(*area, start.area())) {
     throw ConfigError(
         "constraints.volume and constraints.area: cannot be met from a sphere, which moves them "
         "only together: start from another shape, an ellipsoid for example");
   }
-  targets.area.reset();
+  area.reset();
   vesicle.warnings.emplace_back(
       "volume and area of a sphere are one constraint: constraints.area is left free");
 }
 
 model::Measures measures_of(const problem::State& state) {
-  const measure::Diagnostics measured = measure::measure({{}, state.is_two_phase(), {}}, state);
-  return {measured.volume, measured.area, measured.phase_difference};
+  return measure::measure({{}, state.is_two_phase(), {}}, state).measures;
 }
 
 /// Material and targets; a phase target that needs the phase field stays absent before there is
@@ -174,14 +175,14 @@ model::Model model_of(const config::RunConfig& config, const model::Measures& st
   model::Model model;
   model.is_two_phase = config.phase.has_value();
   model.targets = model::make_targets(config.constraints, start, model.is_two_phase);
-  const double area = model.targets.area ? model.targets.area->value(0) : start.area;
-  model.material = model::resolved_material(config.material, area);
+  const auto& area = model.targets.of<model::Area>();
+  model.material = model::resolved_material(config.material, area ? area->value(0) : start.area());
   return model;
 }
 
 Eigen::VectorXd order_parameter_of(const config::RunConfig& config, const mesh::Surface& surface,
                                    const model::Model& model) {
-  const std::optional<model::Schedule>& target = model.targets.phase_difference;
+  const auto& target = model.targets.of<model::PhaseDifference>();
   return phase::initial_phase(*config.phase, surface, model.material.interface_width.value(0),
                               target ? std::optional(target->value(0)) : std::nullopt);
 }

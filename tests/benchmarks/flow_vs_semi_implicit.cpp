@@ -93,7 +93,7 @@ Result run(const test::RelaxationCase& cigar, const solve::SolverOptions& option
   result.seconds = result.seconds * factor;
   result.steps = static_cast<double>(report.counts.steps) * factor;
   result.factorisations = static_cast<double>(report.counts.factorisations) * factor;
-  result.volume_multiplier = *state.values.multipliers.volume;
+  result.volume_multiplier = *state.values.multipliers.of<model::Volume>();
   return result;
 }
 

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdio>
-#include <vesica/mesh/shapes.hpp>
+#include <vesica/shapes/shapes.hpp>
 #include <vesica/relax/damping_controller.hpp>
 #include <vesica/relax/relax.hpp>
-#include <vesica/solve/make_stepper.hpp>
+#include <vesica/run/make_stepper.hpp>
 
 int main() {
   using namespace vesica;
@@ -18,8 +18,8 @@ int main() {
 
   model::Model model;
   model.is_two_phase = false;
-  model.targets.volume = model::Schedule(3.769911184308);  // 0.9 of the unit sphere
-  model.targets.area = model::Schedule(12.566370614359);
+  model.targets.of<model::Volume>() = model::Schedule(3.769911184308);  // 0.9 of the unit sphere
+  model.targets.of<model::Area>() = model::Schedule(12.566370614359);
 
   problem::State start;
   start.triangulation = surface.triangulation;

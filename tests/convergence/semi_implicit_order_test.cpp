@@ -24,7 +24,7 @@ Distance distance(const problem::State& a, const problem::State& b) {
   const auto& y = b.values;
   return {(x.positions - y.positions).rowwise().norm().maxCoeff(),
           (x.order_parameter - y.order_parameter).cwiseAbs().maxCoeff(),
-          std::abs(*x.multipliers.volume - *y.multipliers.volume)};
+          std::abs(*x.multipliers.of<model::Volume>() - *y.multipliers.of<model::Volume>())};
 }
 
 /// Order 1: the second term of the error expansion still shows at these steps.

@@ -49,8 +49,7 @@ void expect_reference(const test::RelaxationResult& result, const Reference& ref
   EXPECT_GT(result.outcome.diagnostics.quality, 0.3);
   EXPECT_GE(result.outcome.mesh_changes.size(), 1U);
   const auto& errors = result.outcome.diagnostics.constraint_errors;
-  for (const auto& error : {errors.volume, errors.area, errors.phase})
-    EXPECT_LT(std::abs(error.value_or(0)), 1e-10);
+  for (const auto& error : errors.values) EXPECT_LT(std::abs(error.value_or(0)), 1e-10);
 }
 
 TEST(SlowAdaption, ReachesTable1) {

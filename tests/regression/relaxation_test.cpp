@@ -13,8 +13,7 @@ constexpr double pi = std::numbers::pi;
 void expect_converged(const test::RelaxationResult& result) {
   EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
   const auto& errors = result.outcome.diagnostics.constraint_errors;
-  for (const auto& error : {errors.volume, errors.area, errors.phase})
-    EXPECT_LT(std::abs(error.value_or(0)), 1e-10);
+  for (const auto& error : errors.values) EXPECT_LT(std::abs(error.value_or(0)), 1e-10);
 }
 
 /// Values of this discretisation, as computed when the test was written; the axisymmetric solution
@@ -74,7 +73,7 @@ void expect_prolate(int resolution, double relative_tolerance) {
   EXPECT_NEAR(result.energy(), prolate_energy, relative_tolerance * prolate_energy);
   EXPECT_NEAR(result.volume_multiplier(), prolate_volume_multiplier,
               1e-2 * prolate_volume_multiplier);
-  EXPECT_FALSE(result.outcome.diagnostics.energy.line.has_value());
+  EXPECT_FALSE(result.outcome.diagnostics.energy.of<model::LineEnergy>().has_value());
   EXPECT_EQ(result.state.values.order_parameter.size(), 0);
 }
 
@@ -88,8 +87,8 @@ void expect_sphere_at_rest(bool holds_volume, bool holds_area) {
   auto c = test::single_phase_case(test::make_sphere(3), 1, 1);
   const auto start = measure::measure(c.model, c.start);
   c.model.targets = {};
-  if (holds_volume) c.model.targets.volume = model::Schedule(start.volume);
-  if (holds_area) c.model.targets.area = model::Schedule(start.area);
+  if (holds_volume) c.model.targets.of<model::Volume>() = model::Schedule(start.measures.volume());
+  if (holds_area) c.model.targets.of<model::Area>() = model::Schedule(start.measures.area());
   const auto result = test::run_case(c);
   EXPECT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
   const mesh::Positions moved = result.state.values.positions - c.start.values.positions;

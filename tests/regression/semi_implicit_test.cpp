@@ -22,7 +22,7 @@ class Watch final : public relax::Observer {
     const double energy = view.diagnostics.energy.total();
     if (view.report.counts.steps > 0) {
       const auto& errors = view.diagnostics.constraint_errors;
-      for (const auto& error : {errors.volume, errors.area, errors.phase})
+      for (const auto& error : errors.values)
         constraint_error = std::max(constraint_error, std::abs(error.value()));
     }
     auto& rise =
@@ -85,7 +85,8 @@ TEST(SlowSemiImplicitRegression, ReachesTheFirstRowOfTable1) {
   ASSERT_EQ(run.outcome.status, relax::RunStatus::end_time) << run.outcome.reason;
   EXPECT_EQ(run.outcome.report.counts.steps, 4500);
   EXPECT_NEAR(run.outcome.diagnostics.energy.total(), test::table_1_energy, 5e-3);
-  EXPECT_NEAR(*run.state.values.multipliers.volume, test::table_1_volume_multiplier, 1e-2);
+  EXPECT_NEAR(*run.state.values.multipliers.of<model::Volume>(), test::table_1_volume_multiplier,
+              1e-2);
   EXPECT_LT(run.watch.constraint_error, 1e-8);
   EXPECT_LT(run.watch.moving_rise, 0);
   EXPECT_LT(run.watch.resting_rise, energy_noise);

@@ -25,10 +25,12 @@ class LagrangianWatch final : public relax::Observer {
   void observe(const relax::StepView& view) override {
     const auto& measured = view.diagnostics;
     const auto& lambda = view.state.values.multipliers;
-    const std::array values{measured.energy.total(), measured.volume, measured.area,
-                            measured.phase_difference.value_or(0)};
-    const std::array weights{1.0, lambda.volume.value_or(0), lambda.area.value_or(0),
-                             lambda.phase.value_or(0)};
+    const std::array values{measured.energy.total(), measured.measures.volume(),
+                            measured.measures.area(),
+                            measured.measures.phase_difference().value_or(0)};
+    const std::array weights{1.0, lambda.of<model::Volume>().value_or(0),
+                             lambda.of<model::Area>().value_or(0),
+                             lambda.of<model::PhaseDifference>().value_or(0)};
     if (last_) {
       double change = 0;
       for (std::size_t i = 0; i < values.size(); ++i)

@@ -63,9 +63,9 @@ inline problem::State fake_state() {
 inline measure::Diagnostics fake_diagnostics() {
   measure::Diagnostics measured;
   measured.energy = {50.5, 0.0, 8.25};
-  measured.volume = 2.5;
-  measured.area = 12.566370614359172;  // R_c = 1
-  measured.phase_difference = 4.75;
+  measured.measures.of<model::Volume>() = 2.5;
+  measured.measures.of<model::Area>() = 12.566370614359172;  // R_c = 1
+  measured.measures.of<model::PhaseDifference>() = 4.75;
   measured.constraint_errors = {1e-9, -2e-9, std::nullopt};
   measured.velocity = {5e-3, 3e-3, 1e-3};
   measured.quality = 0.5;

@@ -22,8 +22,8 @@ inline solve::SolverOptions semi_implicit_options(double tau, bool tangential_fi
 inline RelaxationCase undisturbed_cigar(int resolution) {
   auto result = table_1_case(resolution);
   const auto measured = measure::measure(result.model, result.start);
-  result.model.targets.volume = model::Schedule(measured.volume);
-  result.model.targets.area = model::Schedule(measured.area);
+  result.model.targets.of<model::Volume>() = model::Schedule(measured.measures.volume());
+  result.model.targets.of<model::Area>() = model::Schedule(measured.measures.area());
   return result;
 }
 

@@ -29,7 +29,9 @@ struct RelaxationResult {
   problem::State state;
 
   [[nodiscard]] double energy() const { return outcome.diagnostics.energy.total(); }
-  [[nodiscard]] double volume_multiplier() const { return state.values.multipliers.volume.value(); }
+  [[nodiscard]] double volume_multiplier() const {
+    return state.values.multipliers.of<model::Volume>().value();
+  }
   [[nodiscard]] const solve::SolverCounts& counts() const { return outcome.report.counts; }
 };
 

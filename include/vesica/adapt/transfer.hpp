@@ -28,12 +28,18 @@ struct Restored {
   bool converged = false;
 };
 
-/// Directions in which V, A and int h(c) are restored: nu, kappa nu (both move nodes), and h'(c)
-/// (changes c; left out when `phase_derivative` is empty). nu is the mean of the normals of the
-/// triangles at a node. Smooth fields: the mesh stays as it is, and no noise comes in.
+/// A change at the nodes: of the positions along the normals, and of the order parameter; each of
+/// shape (N), or (0) for none.
+struct NodalChange {
+  Eigen::VectorXd normal;
+  Eigen::VectorXd order_parameter;
+};
+
+/// Makes directions of changes: for V, A and int h(c) the variations 1, -kappa and h'(c) do. The
+/// normal at a node is the mean of the normals of its triangles. Smooth fields: the mesh stays as
+/// it is, and no noise comes in.
 [[nodiscard]] std::vector<RestorableFields> restoring_directions(
-    const mesh::Surface& surface, const Eigen::VectorXd& mean_curvature,
-    const Eigen::VectorXd& phase_derivative);
+    const mesh::Surface& surface, const std::vector<NodalChange>& changes);
 
 /// Newton's method for the coefficients s of fields = start + sum_k s_k directions_k at which the
 /// integrals have their targets, with central differences for the derivatives along the directions.

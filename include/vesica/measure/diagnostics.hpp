@@ -19,9 +19,7 @@ struct VelocityNorms {
 /// What is measured after every accepted step.
 struct Diagnostics {
   model::EnergyParts energy;
-  double volume = 0;                       ///< [length^3]
-  double area = 0;                         ///< [length^2]
-  std::optional<double> phase_difference;  ///< int h(c) [length^2]
+  model::Measures measures;  ///< the constrained functionals
   model::PerConstraint
       constraint_errors;  ///< relative: (C - target) / scale, scale = |target| (area for the phase)
   VelocityNorms velocity;

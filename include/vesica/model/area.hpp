@@ -6,22 +6,19 @@
 
 namespace vesica::model {
 
-/// Surface area |Gamma| of (2.2).
+/// Surface area |Gamma| of (2.2); its variation is (2.6e).
 struct Area {
   static constexpr std::string_view name = "area";
+  static constexpr std::string_view key = "area";
+  static constexpr std::string_view unit = "length^2";
+  static constexpr std::string_view meaning = "as volume";
+  static constexpr int length_power = 2;
   static constexpr bool needs_phase_field = false;
 
-  template <class T>
-  static T density(const SurfacePoint<T>&) {
-    return T(1.0);
-  }
-
-  /// (2.6e).
-  template <class T>
-  static Variation<T> variation(const SurfacePoint<T>& p) {
-    Variation<T> v;
-    v.a = -p.mean_curvature;
-    return v;
+  template <class T, class Factor>
+  static void add_to(const Material&, const LocalPoint<T>&, const Factor& factor,
+                     LocalDensity<T>& sum) {
+    sum.value += factor;
   }
 };
 

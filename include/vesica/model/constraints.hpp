@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "vesica/core/fields.hpp"
+#include "vesica/model/per_term.hpp"
 #include "vesica/model/schedule.hpp"
 
 namespace vesica::model {
@@ -20,25 +21,20 @@ struct Target {
 
 /// Constraints (2.1), (2.4), in the units of the case or in the reduced numbers of Section 4.
 struct ConstraintOptions {
-  Target volume{};
-  Target area{};
-  Target phase_difference{};
+  PerTerm<Constraints, Target> targets{};
   std::optional<double> reduced_volume{};
   std::optional<double> phase_fraction{};
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    visit(Field{"volume", "length^3",
-                "number, [from, to, t0, t1], { times, values, kind = \"linear\" or \"stages\" }, "
-                "\"initial\" "
-                "(also as the first value) or \"free\""},
-          self.volume);
+    std::size_t place = 0;
+    for_each_term<Constraints>([&]<class Constraint>() {
+      visit(Field{Constraint::key, Constraint::unit, Constraint::meaning}, self.targets[place++]);
+    });
     visit(Field{"reduced_volume", "-",
                 "instead of volume: v_r = V / (4 pi R_c^3 / 3), R_c = sqrt(A / 4 pi)",
                 Rule::positive},
           self.reduced_volume);
-    visit(Field{"area", "length^2", "as volume"}, self.area);
-    visit(Field{"phase_difference", "length^2", "A_1 - A_2: as volume"}, self.phase_difference);
     visit(
         Field{"phase_fraction", "-", "instead of phase_difference: x_r = A_2 / A", Rule::fraction},
         self.phase_fraction);

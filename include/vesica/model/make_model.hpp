@@ -1,23 +1,14 @@
 #pragma once
 
-#include <optional>
-
 #include "vesica/model/constraints.hpp"
 #include "vesica/model/material.hpp"
 #include "vesica/model/model.hpp"
 
 namespace vesica::model {
 
-/// What the start has; "initial" targets take it.
-struct Measures {
-  double volume = 0;  ///< [length^3]
-  double area = 0;    ///< [length^2]
-  std::optional<double>
-      phase_difference;  ///< int h(c) [length^2]; absent before the phase field exists
-};
-
 /// Targets from the options: resolves "initial" with `start` and reduced numbers with the area
-/// target. A phase target that needs a phase field not yet made (`start.phase_difference` absent)
+/// target. `start` is what the start has. A phase target that needs a phase field not yet made
+/// (`start` has none)
 /// stays absent. Throws ConfigError for targets that no surface satisfies: reduced volume above 1,
 /// |A_1 - A_2| above the area, a quantity given twice, a phase target for a single-phase vesicle.
 [[nodiscard]] Targets make_targets(const ConstraintOptions& options, const Measures& start,

@@ -31,6 +31,7 @@ struct Material {
   PhasePair bending_rigidity{1.0, 1.0};       ///< k_kappa [energy]
   PhasePair spontaneous_curvature{0.0, 0.0};  ///< kappa_s [1/length]
   PhasePair gaussian_rigidity{0.0, 0.0};      ///< k_g [energy]
+  PhasePair surface_tension{0.0, 0.0};        ///< tau [energy/length^2]
   double line_tension = 1.0;                  ///< sigma [energy/length]
   double interface_width = 0.3;               ///< epsilon [length]
   double kinetic_coefficient = 0.1;           ///< omega [length]
@@ -41,6 +42,7 @@ struct MaterialOptions {
   PhaseSchedules bending_rigidity{1.0, 1.0};
   PhaseSchedules spontaneous_curvature{0.0, 0.0};
   PhaseSchedules gaussian_rigidity{0.0, 0.0};
+  PhaseSchedules surface_tension{0.0, 0.0};
   Schedule line_tension = 1.0;
   Schedule interface_width = 0.3;
   Schedule kinetic_coefficient = 0.1;
@@ -50,9 +52,10 @@ struct MaterialOptions {
 
   /// Does not allocate. Reduced numbers must have been resolved.
   [[nodiscard]] Material at(double time) const {
-    return {bending_rigidity.at(time),   spontaneous_curvature.at(time),
-            gaussian_rigidity.at(time),  line_tension.value(time),
-            interface_width.value(time), kinetic_coefficient.value(time)};
+    return {bending_rigidity.at(time),      spontaneous_curvature.at(time),
+            gaussian_rigidity.at(time),     surface_tension.at(time),
+            line_tension.value(time),       interface_width.value(time),
+            kinetic_coefficient.value(time)};
   }
 
   template <class Self, class Visitor>
@@ -69,6 +72,10 @@ struct MaterialOptions {
     visit(Field{"gaussian_rigidity", "energy",
                 "k_g: as bending_rigidity; equal in both phases it is topological"},
           self.gaussian_rigidity);
+    visit(Field{"surface_tension", "energy/length^2",
+                "tau of the energy int tau(c): as bending_rigidity; at fixed area and phase "
+                "difference it shifts their multipliers alone"},
+          self.surface_tension);
     visit(Field{"line_tension", "energy/length",
                 "sigma of (1.3); the sharp line energy is 4/3 sigma; may change in time",
                 Rule::non_negative},

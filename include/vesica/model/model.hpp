@@ -1,46 +1,36 @@
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
-#include "vesica/model/area.hpp"
-#include "vesica/model/bending_energy.hpp"
 #include "vesica/model/constraints.hpp"
-#include "vesica/model/gaussian_energy.hpp"
-#include "vesica/model/line_energy.hpp"
 #include "vesica/model/material.hpp"
-#include "vesica/model/phase_difference.hpp"
-#include "vesica/model/volume.hpp"
+#include "vesica/model/per_term.hpp"
 
 namespace vesica::model {
 
-/// The energies of (1.6). A new term is a type like these, named here.
-using Energies = std::tuple<BendingEnergy, GaussianEnergy, LineEnergy>;
-
-/// The constrained functionals of (2.2), (2.3), in the order of `Targets` and of the multipliers.
-using Constraints = std::tuple<Volume, Area, PhaseDifference>;
-inline constexpr int num_constraints = std::tuple_size_v<Constraints>;
-
 /// Targets of the active constraints; an absent one leaves its quantity free.
-struct Targets {
-  std::optional<Schedule> volume;            ///< [length^3]
-  std::optional<Schedule> area;              ///< [length^2]
-  std::optional<Schedule> phase_difference;  ///< A_1 - A_2 [length^2]
-
-  /// The same in the order of `Constraints`.
-  [[nodiscard]] std::array<std::optional<Schedule>, num_constraints> in_order() const {
-    return {volume, area, phase_difference};
-  }
-};
+using Targets = PerTerm<Constraints, std::optional<Schedule>>;
 
 /// The terms of the energy at one time.
 struct Physics {
   Material material;
   bool is_two_phase = true;
 };
+
+/// Whether a term takes part: those of the phase field only where there is one, and those that can
+/// tell only where they are present.
+template <class Term>
+[[nodiscard]] bool takes_part(const Physics& physics) {
+  if (Term::needs_phase_field && !physics.is_two_phase) return false;
+  if constexpr (requires { Term::is_present(physics.material); }) {
+    return Term::is_present(physics.material);
+  } else {
+    return true;
+  }
+}
 
 /// Which physics: the material, whether there is a phase field, and the constraints. Material and
 /// targets may change in time.
@@ -68,19 +58,27 @@ struct NamedSchedule {
 /// All schedules of material and targets; absent targets are left out.
 [[nodiscard]] std::vector<NamedSchedule> schedules_of(const Model& model);
 
+/// What the error of a constraint is measured by: the modulus of its target, or the scale that it
+/// declares because its target may be zero. `area` is that of the surface.
+template <class Constraint>
+[[nodiscard]] double error_scale(double target, double area) {
+  if constexpr (requires { Constraint::error_scale(area); }) {
+    return Constraint::error_scale(area);
+  } else {
+    return std::abs(target);
+  }
+}
+
 /// Places in `Constraints` of those that have a target, ascending; the phase difference counts only
 /// where there is a phase field.
 [[nodiscard]] inline std::vector<int> active_constraints(const Model& model) {
-  const auto targets = model.targets.in_order();
   std::vector<int> active;
-  int place = 0;
-  const auto add = [&]<class Constraint>(const Constraint&) {
-    if (targets[static_cast<std::size_t>(place)] &&
-        (model.is_two_phase || !Constraint::needs_phase_field))
-      active.push_back(place);
+  std::size_t place = 0;
+  for_each_term<Constraints>([&]<class Constraint>() {
+    if (model.targets[place] && (model.is_two_phase || !Constraint::needs_phase_field))
+      active.push_back(static_cast<int>(place));
     ++place;
-  };
-  std::apply([&](const auto&... constraint) { (add(constraint), ...); }, Constraints{});
+  });
   return active;
 }
 

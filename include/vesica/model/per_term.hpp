@@ -1,33 +1,74 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string_view>
+
+#include "vesica/core/fields.hpp"
+#include "vesica/model/terms.hpp"
 
 namespace vesica::model {
 
-/// Energy by parts [energy]; a single-phase vesicle has no line energy.
-struct EnergyParts {
-  double bending = 0;
-  double gaussian = 0;  ///< int k_g(c) g with g = (kappa^2 - |Q|^2)/2, the energy in (1.6); (4.3)
-                        ///< lacks the factor 1/2
-  std::optional<double> line;
-  [[nodiscard]] double total() const { return bending + gaussian + line.value_or(0.0); }
+/// One value for each term of a list, in the order of the list.
+template <class List, class Value>
+struct PerTerm {
+  std::array<Value, std::tuple_size_v<List>> values{};
+
+  /// The value of one term, as in `multipliers.of<Volume>()`.
+  template <class Term>
+  [[nodiscard]] Value& of() {
+    static_assert(place_of<List, Term> < std::tuple_size_v<List>, "no term of this list");
+    return values[place_of<List, Term>];
+  }
+  template <class Term>
+  [[nodiscard]] const Value& of() const {
+    static_assert(place_of<List, Term> < std::tuple_size_v<List>, "no term of this list");
+    return values[place_of<List, Term>];
+  }
+  [[nodiscard]] Value& operator[](std::size_t place) { return values[place]; }
+  [[nodiscard]] const Value& operator[](std::size_t place) const { return values[place]; }
+
+  /// Visits the values under the names of their terms, as the fields of options are visited.
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    std::size_t place = 0;
+    for_each_term<List>([&]<class Term>() {
+      visit(Field{Term::name, "", Term::name}, self.values[place++]);
+    });
+  }
 };
 
-/// One value for each constraint; a constraint that is left free has none.
-/// Multipliers: volume [energy/length^3], area and phase [energy/length^2], signs as in (1.7a):
-/// dF/dV = -volume.
-struct PerConstraint {
-  std::optional<double> volume;
-  std::optional<double> area;
-  std::optional<double> phase;
-
-  /// The same in the order of model::Constraints, and back.
-  [[nodiscard]] std::array<std::optional<double>, 3> in_order() const {
-    return {volume, area, phase};
+/// Energy by parts [energy]; absent for a term that takes no part. The Gaussian part is the one of
+/// (1.6), int k_g(c) g with g = (kappa^2 - |Q|^2)/2; (4.3) lacks the factor 1/2.
+struct EnergyParts : PerTerm<Energies, std::optional<double>> {
+  [[nodiscard]] double total() const {
+    double sum = 0;
+    for (const auto& part : values) sum += part.value_or(0.0);
+    return sum;
   }
-  [[nodiscard]] static PerConstraint from(const std::array<std::optional<double>, 3>& values) {
-    return {values[0], values[1], values[2]};
+};
+
+/// One value for each constraint, absent for one that is left free: multipliers, with the signs of
+/// (1.7a), dF/dV = -volume: volume [energy/length^3], area and phase [energy/length^2]; errors.
+using PerConstraint = PerTerm<Constraints, std::optional<double>>;
+
+/// Values of the constrained functionals; the phase difference is absent without a phase field.
+struct Measures : PerTerm<Constraints, std::optional<double>> {
+  [[nodiscard]] double volume() const { return *of<Volume>(); }  ///< [length^3]
+  [[nodiscard]] double area() const { return *of<Area>(); }      ///< [length^2]
+  /// int h(c) [length^2], which tends to A_1 - A_2.
+  [[nodiscard]] const std::optional<double>& phase_difference() const {
+    return of<PhaseDifference>();
+  }
+
+  /// As PerTerm::fields, under the keys that the quantities have in a case file.
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    std::size_t place = 0;
+    for_each_term<Constraints>([&]<class Constraint>() {
+      visit(Field{Constraint::key, Constraint::unit, Constraint::key}, self.values[place++]);
+    });
   }
 };
 

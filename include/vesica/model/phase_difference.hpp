@@ -7,23 +7,23 @@
 
 namespace vesica::model {
 
-/// Phase difference int h(c) of (2.2), which tends to A_1 - A_2.
+/// Phase difference int h(c) of (2.2), which tends to A_1 - A_2; its variation is (2.6f).
 struct PhaseDifference {
   static constexpr std::string_view name = "phase";
+  static constexpr std::string_view key = "phase_difference";
+  static constexpr std::string_view unit = "length^2";
+  static constexpr std::string_view meaning = "A_1 - A_2: as volume";
+  static constexpr int length_power = 2;
   static constexpr bool needs_phase_field = true;
 
-  template <class T>
-  static T density(const SurfacePoint<T>& p) {
-    return phase_indicator(p.order_parameter);
-  }
+  /// Its target may be zero.
+  static double error_scale(double area) { return area; }
 
-  /// (2.6f).
-  template <class T>
-  static Variation<T> variation(const SurfacePoint<T>& p) {
-    Variation<T> v;
-    v.a = -(phase_indicator(p.order_parameter) * p.mean_curvature);
-    v.s = phase_indicator_derivative(p.order_parameter);
-    return v;
+  template <class T, class Factor>
+  static void add_to(const Material&, const LocalPoint<T>& p, const Factor& factor,
+                     LocalDensity<T>& sum) {
+    sum.value += factor * phase_indicator(p.order_parameter);
+    sum.by_order_parameter += factor * phase_indicator_derivative(p.order_parameter);
   }
 };
 

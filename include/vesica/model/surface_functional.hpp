@@ -1,19 +1,28 @@
 #pragma once
 
+#include <concepts>
+
 #include "vesica/core/small_tensor.hpp"
+#include "vesica/model/material.hpp"
 
 namespace vesica::model {
 
-/// What a functional sees at one point of the surface. Gradients are surface gradients in R^3.
+/// What a functional sees at one point of the surface if it does not look at the curvature.
+/// Gradients are surface gradients in R^3.
 template <class T>
-struct SurfacePoint {
+struct LocalPoint {
   Vec3<T> position;                  ///< x [length]
   Vec3<T> normal;                    ///< nu, outward unit normal
-  T mean_curvature;                  ///< kappa = -div nu, -2/R on a sphere [1/length]
-  Vec3<T> mean_curvature_gradient;   ///< grad kappa [1/length^2]
-  Sym3<T> shape_operator;            ///< Q = grad nu, +1/R P on a sphere [1/length]
   T order_parameter;                 ///< c, +1 in phase 1
   Vec3<T> order_parameter_gradient;  ///< grad c [1/length]
+};
+
+/// What any functional sees at one point of the surface.
+template <class T>
+struct SurfacePoint : LocalPoint<T> {
+  T mean_curvature;                 ///< kappa = -div nu, -2/R on a sphere [1/length]
+  Vec3<T> mean_curvature_gradient;  ///< grad kappa [1/length^2]
+  Sym3<T> shape_operator;           ///< Q = grad nu, +1/R P on a sphere [1/length]
 };
 
 /// First variation of int density at a point, in the form all terms of (2.6) take after integration
@@ -28,7 +37,80 @@ struct Variation {
   Vec3<T> b{};  ///< [density]
   T s{};        ///< [density]
   Vec3<T> q{};  ///< [density * length]
+
+  /// Adds `factor` times another variation.
+  template <class Factor>
+  void add(const Factor& factor, const Variation& term) {
+    a = a + factor * term.a;
+    b = b + factor * term.b;
+    s = s + factor * term.s;
+    q = q + factor * term.q;
+  }
 };
+
+/// A density f(x, nu, c, grad c) that does not look at the curvature, and its partial derivatives.
+/// All formulations take what they need from these five.
+template <class T>
+struct LocalDensity {
+  T value{};                              ///< f
+  T by_order_parameter{};                 ///< df/dc
+  Vec3<T> by_order_parameter_gradient{};  ///< df/d(grad c), tangential [density * length]
+  Vec3<T> by_position{};                  ///< df/dx [density/length]
+  Vec3<T> by_normal{};                    ///< df/dnu
+};
+
+/// First variation of a density that depends on c and grad c alone:
+///
+///     a = -f kappa - f_grad . Q grad c,   s = f_c,   q = f_grad.
+template <class T>
+Variation<T> variation_of(const LocalDensity<T>& f, const SurfacePoint<T>& p) {
+  const Vec3<T>& q = f.by_order_parameter_gradient;
+  Variation<T> v;
+  v.a = -(f.value * p.mean_curvature) - dot(q, p.shape_operator * p.order_parameter_gradient);
+  v.s = f.by_order_parameter;
+  v.q = q;
+  return v;
+}
+
+/// A term of the two lists without curvature. It adds `factor` times itself to a density. One that
+/// looks at the curvature does not satisfy this: a LocalPoint has none.
+template <class Term>
+concept LocalTerm = requires(const Material& material, const LocalPoint<double>& point,
+                             LocalDensity<double>& sum) {
+  Term::add_to(material, point, 1.0, sum);
+};
+
+/// A term with a first variation of its own, as (2.6a), (2.6b) and (2.6d) after integration by
+/// parts. The other ones take `variation_of` their density.
+template <class Term>
+concept HasVariation = requires(const Material& material, const SurfacePoint<double>& point) {
+  { Term::variation(material, point) } -> std::same_as<Variation<double>>;
+};
+
+/// The density of a term at a point.
+template <class Term, class T>
+T density_of(const Material& material, const SurfacePoint<T>& point) {
+  if constexpr (LocalTerm<Term>) {
+    LocalDensity<T> f;
+    Term::add_to(material, static_cast<const LocalPoint<T>&>(point), 1.0, f);
+    return f.value;
+  } else {
+    return Term::density(material, point);
+  }
+}
+
+/// The first variation of a term at a point.
+template <class Term, class T>
+Variation<T> variation_of_term(const Material& material, const SurfacePoint<T>& point) {
+  if constexpr (HasVariation<Term>) {
+    return Term::variation(material, point);
+  } else {
+    static_assert(LocalTerm<Term>, "a term needs add_to(), or density() and variation()");
+    LocalDensity<T> f;
+    Term::add_to(material, static_cast<const LocalPoint<T>&>(point), 1.0, f);
+    return variation_of(f, point);
+  }
+}
 
 /// |Q|^2 = |grad nu|^2 = kappa_1^2 + kappa_2^2 [1/length^2].
 template <class T>

@@ -9,8 +9,8 @@
 namespace vesica::problem {
 
 /// Where the unknowns stand in the flat vector of an integrator: node by node x, y, z, kappa and,
-/// with a phase field, c; then the multipliers of the active constraints in the order volume, area,
-/// phase.
+/// with a phase field, c; then the multipliers of the active constraints in the order of
+/// model::Constraints.
 class DofLayout {
  public:
   DofLayout(mesh::NodeIndex num_nodes, const model::Model& model);
@@ -21,8 +21,8 @@ class DofLayout {
   [[nodiscard]] Eigen::Index num_nodal() const { return num_nodes_ * block_size(); }
   [[nodiscard]] int num_multipliers() const { return num_multipliers_; }
   [[nodiscard]] Eigen::Index size() const { return num_nodal() + num_multipliers_; }
-  /// Row of the multiplier of a constraint (0 volume, 1 area, 2 phase) behind the nodal unknowns,
-  /// -1 if it is free.
+  /// Row of the multiplier of the constraint at a place of model::Constraints, behind the nodal
+  /// unknowns; -1 if it is free.
   [[nodiscard]] int multiplier(int constraint) const {
     return multipliers_[static_cast<std::size_t>(constraint)];
   }
@@ -30,6 +30,9 @@ class DofLayout {
   /// Fields as one vector, shape (size()).
   [[nodiscard]] Eigen::VectorXd pack(const Fields& fields) const;
   [[nodiscard]] Fields unpack(const Eigen::Ref<const Eigen::VectorXd>& flat) const;
+  /// Multipliers of the active constraints, shape (num_multipliers()), by constraint.
+  [[nodiscard]] model::PerConstraint named(
+      const Eigen::Ref<const Eigen::VectorXd>& multipliers) const;
   /// 1 where an unknown has a time derivative in the equations (x, c), 0 for kappa and the
   /// multipliers.
   [[nodiscard]] Eigen::VectorXd differential_mask() const;
@@ -37,7 +40,7 @@ class DofLayout {
  private:
   Eigen::Index num_nodes_;
   bool is_two_phase_;
-  std::array<int, model::num_constraints> multipliers_{-1, -1, -1};
+  std::array<int, model::num_constraints> multipliers_{};
   int num_multipliers_ = 0;
 };
 

@@ -30,11 +30,13 @@ struct EnergyRates {
 /// (1.7a).
 using Multipliers = std::array<double, model::num_constraints>;
 
-/// Values and exact gradients of volume, area and phase difference (0 for a single phase).
+/// Values and exact gradients of the constrained functionals, in the order of model::Constraints; 0
+/// for those of the phase field of a single-phase vesicle.
 struct ConstraintEvaluation {
   std::array<double, model::num_constraints> values{};
   std::array<mesh::Positions, model::num_constraints> positions;
-  Eigen::VectorXd order_parameter;  ///< of the phase difference; the others do not depend on c
+  /// With respect to c, shape (N); empty for a single-phase vesicle.
+  std::array<Eigen::VectorXd, model::num_constraints> order_parameter;
 };
 
 /// One discrete energy of the membrane, the dual mixed form with the bending moment p as third

@@ -58,6 +58,14 @@ Eigen::VectorXd derivative_of_phase(const Eigen::VectorXd& c) {
   return 1.5 * (1 - c.array().square());
 }
 
+/// The variations of V and A along the normals, and of int h(c) in c.
+std::vector<NodalChange> changes_of(const Eigen::VectorXd& curvature,
+                                    const Eigen::VectorXd& phase_derivative) {
+  std::vector<NodalChange> changes{{Eigen::VectorXd::Ones(curvature.size()), {}}, {curvature, {}}};
+  if (phase_derivative.size() > 0) changes.push_back({{}, phase_derivative});
+  return changes;
+}
+
 TEST(Transfer, OfASmoothFieldHasThirdOrder) {
   const auto error = [](int resolution) {
     const mesh::Surface old = shape(shapes::ShapeKind::ellipsoid, resolution);
@@ -84,7 +92,8 @@ TEST(RestoreIntegrals, PutsVolumeAreaAndPhaseBackAfterRemeshing) {
   ASSERT_GT(before.cwiseAbs().minCoeff(), 1e-6);
   const Restored restored = restore_integrals(
       integrals, targets,
-      restoring_directions(found.surface, curvature, derivative_of_phase(carried)), start);
+      restoring_directions(found.surface, changes_of(curvature, derivative_of_phase(carried))),
+      start);
   EXPECT_TRUE(restored.converged);
   EXPECT_LE(restored.num_steps, 4);
   EXPECT_LT(restored.error.cwiseAbs().maxCoeff(), 1e-10);
@@ -101,11 +110,11 @@ TEST(RestoreIntegrals, MendsErrorsOfOnePercent) {
   targets[0] *= 1.01;
   targets[1] *= 1.02;
   targets[2] += 0.05;
-  const auto restored =
-      restore_integrals(integrals, targets,
-                        restoring_directions(surface, curvature_on(surface),
-                                             derivative_of_phase(start.order_parameter)),
-                        start);
+  const auto restored = restore_integrals(
+      integrals, targets,
+      restoring_directions(
+          surface, changes_of(curvature_on(surface), derivative_of_phase(start.order_parameter))),
+      start);
   EXPECT_TRUE(restored.converged);
   EXPECT_LT((integrals(restored.fields) - targets).cwiseAbs().maxCoeff(), 1e-10);
 }
@@ -115,7 +124,8 @@ TEST(RestoreIntegrals, LeavesFieldsThatAreRightAlone) {
   const RestorableFields start{surface.positions, phase_on(surface.positions)};
   const Integrals integrals = integrals_on(surface);
   const auto restored = restore_integrals(
-      integrals, integrals(start), restoring_directions(surface, curvature_on(surface), {}), start);
+      integrals, integrals(start),
+      restoring_directions(surface, changes_of(curvature_on(surface), {})), start);
   EXPECT_TRUE(restored.converged);
   EXPECT_EQ(restored.num_steps, 0);
   EXPECT_EQ(restored.fields.positions, start.positions);
@@ -127,8 +137,9 @@ TEST(RestoreIntegrals, SaysWhenASphereCannotHaveMoreVolumeAtItsArea) {
   const Integrals integrals = integrals_on(sphere);
   Eigen::VectorXd targets = integrals(start);
   targets[0] *= 1.05;
-  const auto restored = restore_integrals(
-      integrals, targets, restoring_directions(sphere, curvature_on(sphere), {}), start);
+  const auto restored =
+      restore_integrals(integrals, targets,
+                        restoring_directions(sphere, changes_of(curvature_on(sphere), {})), start);
   EXPECT_FALSE(restored.converged);
   EXPECT_TRUE(restored.fields.positions.allFinite());
   EXPECT_LT((restored.fields.positions - start.positions).cwiseAbs().maxCoeff(), 0.1);
@@ -137,7 +148,7 @@ TEST(RestoreIntegrals, SaysWhenASphereCannotHaveMoreVolumeAtItsArea) {
 TEST(RestoringDirections, AreNormalToTheSurface) {
   const mesh::Surface sphere = shape(shapes::ShapeKind::sphere, 6);
   const Eigen::VectorXd curvature = Eigen::VectorXd::Constant(sphere.positions.rows(), -2);
-  const auto directions = restoring_directions(sphere, curvature, {});
+  const auto directions = restoring_directions(sphere, changes_of(curvature, {}));
   ASSERT_EQ(directions.size(), 2U);
   EXPECT_LT((directions[0].positions - sphere.positions).cwiseAbs().maxCoeff(), 5e-3);
   EXPECT_LT((directions[1].positions + 2 * sphere.positions).cwiseAbs().maxCoeff(), 1e-2);

@@ -43,15 +43,15 @@ Difference difference_of(const ComparedRun& first, const ComparedRun& second) {
 
 TEST(Comparison, EqualRunsFoundTheSameEquilibrium) {
   ComparedRun other = fake_run("minimize");
-  other.verdict.outcome.diagnostics.energy.bending += 58.75e-6;
-  other.state.values.multipliers.volume = 27.5 / (1 - 1e-3);
+  *other.verdict.outcome.diagnostics.energy.of<model::BendingEnergy>() += 58.75e-6;
+  other.state.values.multipliers.of<model::Volume>() = 27.5 / (1 - 1e-3);
   const Difference difference = difference_of(fake_run("flow"), other);
   EXPECT_EQ(difference.same_equilibrium, true);
   EXPECT_NEAR(difference.energy, 58.75e-6, 1e-12);
   EXPECT_NEAR(difference.relative_energy, 1e-6, 1e-11);
-  EXPECT_NEAR(*difference.multipliers.volume, 1e-3, 1e-12);
-  EXPECT_EQ(difference.multipliers.area, 0);
-  EXPECT_FALSE(difference.multipliers.phase);
+  EXPECT_NEAR(*difference.multipliers.of<model::Volume>(), 1e-3, 1e-12);
+  EXPECT_EQ(difference.multipliers.of<model::Area>(), 0);
+  EXPECT_FALSE(difference.multipliers.of<model::PhaseDifference>());
   EXPECT_LT(difference.shape.l2, 1e-9);
   EXPECT_TRUE(difference.conclusion.starts_with(
       "flow and minimize found the same equilibrium: energies agree to 1.0e-06 (relative)"))
@@ -61,7 +61,7 @@ TEST(Comparison, EqualRunsFoundTheSameEquilibrium) {
 TEST(Comparison, EveryCriterionAloneTellsEquilibriaApart) {
   const ComparedRun first = fake_run("flow");
   ComparedRun energy = fake_run("minimize");
-  energy.verdict.outcome.diagnostics.energy.bending *= 0.99;
+  *energy.verdict.outcome.diagnostics.energy.of<model::BendingEnergy>() *= 0.99;
   ComparedRun shape = fake_run("minimize");
   shape.state.values.positions.col(0) *= 1.1;
   ComparedRun phase = fake_run("minimize");
@@ -81,7 +81,7 @@ TEST(Comparison, EveryCriterionAloneTellsEquilibriaApart) {
 
 TEST(Comparison, AnEnergyThatIsNoNumberIsNoAgreement) {
   ComparedRun other = fake_run("minimize");
-  other.verdict.outcome.diagnostics.energy.bending = NAN;
+  *other.verdict.outcome.diagnostics.energy.of<model::BendingEnergy>() = NAN;
   EXPECT_EQ(difference_of(fake_run("flow"), other).same_equilibrium, false);
 }
 
@@ -107,7 +107,7 @@ TEST(Comparison, TheExitStatusIsTheWorstOfTheRuns) {
 TEST(Comparison, JsonHoldsTheVerdictsAndTheDifferences) {
   const test::TemporaryFolder folder;
   ComparedRun other = fake_run("minimize");
-  other.verdict.outcome.diagnostics.energy.bending = 49.5;
+  *other.verdict.outcome.diagnostics.energy.of<model::BendingEnergy>() = 49.5;
   io::write_text_file(folder.path() / "comparison.json",
                       io::to_json(compare({fake_run("flow"), other, fake_run("weak_form")})));
   const io::JsonReader json(folder.path() / "comparison.json");
@@ -138,7 +138,7 @@ std::string squeezed(const std::string& text) {
 TEST(Comparison, TheTableHasAColumnForEachRunAndLeavesOutWhatIsAbsent) {
   std::ostringstream out;
   ComparedRun other = fake_run("minimize");
-  other.verdict.outcome.diagnostics.energy.bending = 50.25;
+  *other.verdict.outcome.diagnostics.energy.of<model::BendingEnergy>() = 50.25;
   other.verdict.shape.domains_1.reset();
   io::print_comparison(out, compare({fake_run("flow"), other}));
   const std::string text = squeezed(out.str());

@@ -68,10 +68,10 @@ maximum = 5
   EXPECT_EQ(config.material.bending_rigidity, (model::PhaseSchedules{2, 2}));
   EXPECT_EQ(config.material.gaussian_rigidity, (model::PhaseSchedules{0.5, -0.5}));
   EXPECT_EQ(config.material.rigidity_ratio, 3.0);
-  EXPECT_EQ(config.constraints.volume,
+  EXPECT_EQ(config.constraints.targets.of<model::Volume>(),
             (model::Target{model::TargetKind::prescribed, model::Schedule::ramp(3, 2.5, 0, 1)}));
-  EXPECT_EQ(config.constraints.area.kind, model::TargetKind::free);
-  EXPECT_EQ(config.constraints.phase_difference,
+  EXPECT_EQ(config.constraints.targets.of<model::Area>().kind, model::TargetKind::free);
+  EXPECT_EQ(config.constraints.targets.of<model::PhaseDifference>(),
             (model::Target{model::TargetKind::prescribed, model::Schedule(4)}));
   EXPECT_TRUE(std::isinf(config.stop.end_time));
   EXPECT_EQ(config.damping.maximum, 5.0);
@@ -234,7 +234,7 @@ TEST(Config, OverridesReplaceAndAddValues) {
                                        "constraints.volume=[3, 2, 0, 1]", "title=two words"});
   EXPECT_EQ(config.solver.rtol, 1e-4);
   EXPECT_EQ(config.damping.kind, relax::DampingKind::fixed);
-  EXPECT_EQ(config.constraints.volume.schedule.last(), 2);
+  EXPECT_EQ(config.constraints.targets.of<model::Volume>().schedule.last(), 2);
   EXPECT_EQ(config.title, "two words");
 }
 
@@ -337,10 +337,10 @@ area = { times = [0, 1, 2], values = ["initial", 12, 11], kind = "stages" }
             (model::PhaseSchedules{Schedule::ramp(0, 1, 0, 1),
                                    Schedule::points(ScheduleKind::stages, {0, 1}, {0, 2})}));
   EXPECT_EQ(material.line_tension, Schedule::points(ScheduleKind::linear, {0, 1, 2}, {1, 3, 2}));
-  EXPECT_TRUE(config.constraints.volume.begins_at_start);
-  EXPECT_EQ(config.constraints.volume.schedule.value(0.05), 2.6);
-  EXPECT_TRUE(config.constraints.area.begins_at_start);
-  EXPECT_EQ(config.constraints.area.schedule.value(1.5), 12);
+  EXPECT_TRUE(config.constraints.targets.of<model::Volume>().begins_at_start);
+  EXPECT_EQ(config.constraints.targets.of<model::Volume>().schedule.value(0.05), 2.6);
+  EXPECT_TRUE(config.constraints.targets.of<model::Area>().begins_at_start);
+  EXPECT_EQ(config.constraints.targets.of<model::Area>().schedule.value(1.5), 12);
 }
 
 TEST(Config, QuantitiesThatChangeInTimeReadBackAsTheSame) {

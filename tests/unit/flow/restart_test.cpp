@@ -34,7 +34,8 @@ TEST(Restart, TakesAllValuesAndRatesAsTheyAre) {
   EXPECT_EQ(start.values.positions, state.values.positions);
   EXPECT_EQ(start.values.mean_curvature, state.values.mean_curvature);
   EXPECT_EQ(start.values.order_parameter, state.values.order_parameter);
-  EXPECT_EQ(start.values.multipliers.volume, state.values.multipliers.volume);
+  EXPECT_EQ(start.values.multipliers.of<model::Volume>(),
+            state.values.multipliers.of<model::Volume>());
   EXPECT_EQ(start.rates.positions, state.rates.positions);
 }
 

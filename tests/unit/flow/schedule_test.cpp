@@ -24,7 +24,7 @@ test::RelaxationCase cigar() {
 
 double largest_error(const test::RelaxationResult& result) {
   double largest = 0;
-  for (const auto& error : result.outcome.diagnostics.constraint_errors.in_order())
+  for (const auto& error : result.outcome.diagnostics.constraint_errors.values)
     largest = std::max(largest, std::abs(error.value_or(0)));
   return largest;
 }
@@ -75,18 +75,19 @@ TEST_P(RunInTime, EndsWhereTheLastStageEnds) {
 
 TEST_P(RunInTime, FollowsAStagedTargetWithTheRateOfTheConstraints) {
   auto c = cigar();
-  const double volume = c.model.targets.volume->last();
-  c.model.targets.volume = 0.94 * volume;
+  const double volume = c.model.targets.of<model::Volume>()->last();
+  c.model.targets.of<model::Volume>() = 0.94 * volume;
   const auto direct = run(c);
-  c.model.targets.volume = Schedule::points(ScheduleKind::stages, {0, 0.06, 0.12},
-                                            {volume, 0.97 * volume, 0.94 * volume});
+  c.model.targets.of<model::Volume>() = Schedule::points(ScheduleKind::stages, {0, 0.06, 0.12},
+                                                         {volume, 0.97 * volume, 0.94 * volume});
   const auto stepper = run::make_stepper(options_, c.model, c.start);
   while (stepper->state().time < 0.12) {
     const auto report = stepper->step(infinity);
     ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
     const double time = stepper->state().time;
     if (time != 0.06 && time != 0.12) continue;
-    const auto error = measure::measure(c.model, stepper->state()).constraint_errors.volume;
+    const auto error =
+        measure::measure(c.model, stepper->state()).constraint_errors.of<model::Volume>();
     EXPECT_LT(std::abs(*error), 1e-3) << "at the end of a stage, t = " << time;
   }
   expect_same_end(run(c), direct, tolerance);
@@ -108,7 +109,7 @@ TEST(IdaStepper, StepsOntoAJumpOfTheMaterialAndBeginsAnew) {
   const auto before = measure::measure(c.model, stepper->state());
   ASSERT_EQ(stepper->step(infinity).status, solve::StepStatus::accepted);
   const auto after = measure::measure(c.model, stepper->state());
-  EXPECT_GT(*after.energy.line, 5 * *before.energy.line);
+  EXPECT_GT(*after.energy.of<model::LineEnergy>(), 5 * *before.energy.of<model::LineEnergy>());
   EXPECT_GT(after.velocity.normal, 2 * before.velocity.normal);
   double last = after.energy.total();
   for (int step = 0; step < 10; ++step) {

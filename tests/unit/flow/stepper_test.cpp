@@ -125,9 +125,11 @@ RelaxationCase in_units(const RelaxationCase& c, double length, double energy) {
   material.interface_width = material.interface_width.scaled(length);
   material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
   auto& targets = result.model.targets;
-  targets.volume = model::Schedule(targets.volume->last() * length * length * length);
-  targets.area = model::Schedule(targets.area->last() * length * length);
-  targets.phase_difference = model::Schedule(targets.phase_difference->last() * length * length);
+  targets.of<model::Volume>() =
+      model::Schedule(targets.of<model::Volume>()->last() * length * length * length);
+  targets.of<model::Area>() = model::Schedule(targets.of<model::Area>()->last() * length * length);
+  targets.of<model::PhaseDifference>() =
+      model::Schedule(targets.of<model::PhaseDifference>()->last() * length * length);
   return result;
 }
 
@@ -160,13 +162,13 @@ TEST(IdaStepper, TakesTheConstraintsToRoundOffAtTheEnd) {
   const auto stepper = stepper_for(c);
   advance(*stepper, 0.1);
   const auto before = measure::measure(c.model, stepper->state()).constraint_errors;
-  ASSERT_GT(std::abs(*before.volume), 1e-9);
+  ASSERT_GT(std::abs(*before.of<model::Volume>()), 1e-9);
   const auto report = stepper->finish();
   ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
   const auto errors = measure::measure(c.model, stepper->state()).constraint_errors;
-  EXPECT_LT(std::abs(*errors.volume), 1e-12);
-  EXPECT_LT(std::abs(*errors.area), 1e-12);
-  EXPECT_LT(std::abs(*errors.phase), 1e-12);
+  EXPECT_LT(std::abs(*errors.of<model::Volume>()), 1e-12);
+  EXPECT_LT(std::abs(*errors.of<model::Area>()), 1e-12);
+  EXPECT_LT(std::abs(*errors.of<model::PhaseDifference>()), 1e-12);
 }
 
 TEST(IdaStepper, ComesNearerToTheEquilibriumAtTheEnd) {
@@ -226,15 +228,15 @@ TEST(IdaStepper, CarriesNoPhaseFieldForOnePhase) {
     ASSERT_EQ(stepper->step(infinity).status, solve::StepStatus::accepted);
   const auto& values = stepper->state().values;
   EXPECT_EQ(values.order_parameter.size(), 0);
-  EXPECT_TRUE(values.multipliers.volume.has_value());
-  EXPECT_TRUE(values.multipliers.area.has_value());
-  EXPECT_FALSE(values.multipliers.phase.has_value());
+  EXPECT_TRUE(values.multipliers.of<model::Volume>().has_value());
+  EXPECT_TRUE(values.multipliers.of<model::Area>().has_value());
+  EXPECT_FALSE(values.multipliers.of<model::PhaseDifference>().has_value());
 }
 
 TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
   auto c = test::table_1_case(2);
-  const double volume = c.model.targets.volume->last();
-  c.model.targets.volume = model::Schedule::ramp(volume, 0.97 * volume, 2e-3, 6e-3);
+  const double volume = c.model.targets.of<model::Volume>()->last();
+  c.model.targets.of<model::Volume>() = model::Schedule::ramp(volume, 0.97 * volume, 2e-3, 6e-3);
   solve::SolverOptions options;
   options.rtol = 1e-4;
   // The error test allows displacements of rtol 2 R_c a step, that is 9e-4 of the volume, and the
@@ -248,7 +250,7 @@ TEST(IdaStepper, FollowsARampOfTheVolumeAndStepsOntoItsKinks) {
     const auto& state = stepper->state();
     met_start = met_start || state.time == 2e-3;
     met_end = met_end || state.time == 6e-3;
-    const auto error = measure::measure(c.model, state).constraint_errors.volume;
+    const auto error = measure::measure(c.model, state).constraint_errors.of<model::Volume>();
     EXPECT_LT(std::abs(*error), tolerance) << "t = " << state.time;
   }
   EXPECT_TRUE(met_start);

@@ -73,9 +73,9 @@ TEST(RunReader, ReadsTheFinalStateBack) {
   EXPECT_EQ(run.state.values.mean_curvature, expected.values.mean_curvature);
   EXPECT_EQ(run.state.values.order_parameter, expected.values.order_parameter);
   EXPECT_EQ(run.state.rates.positions, expected.rates.positions);
-  EXPECT_EQ(run.state.values.multipliers.volume, 27.5);
-  EXPECT_EQ(run.state.values.multipliers.area, -9.25);
-  EXPECT_EQ(run.state.values.multipliers.phase, std::nullopt);
+  EXPECT_EQ(run.state.values.multipliers.of<model::Volume>(), 27.5);
+  EXPECT_EQ(run.state.values.multipliers.of<model::Area>(), -9.25);
+  EXPECT_EQ(run.state.values.multipliers.of<model::PhaseDifference>(), std::nullopt);
 }
 
 TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
@@ -85,11 +85,11 @@ TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
   config.phase.emplace();
   const setup::Case resumed = resumed_case(config, folder.path());
   const setup::Origin expected = setup::case_of(config, fake_state()).origin;
-  EXPECT_EQ(resumed.origin.measures.volume, expected.measures.volume);
-  EXPECT_EQ(resumed.origin.measures.area, expected.measures.area);
-  EXPECT_EQ(resumed.origin.measures.phase_difference, expected.measures.phase_difference);
+  EXPECT_EQ(resumed.origin.measures.volume(), expected.measures.volume());
+  EXPECT_EQ(resumed.origin.measures.area(), expected.measures.area());
+  EXPECT_EQ(resumed.origin.measures.phase_difference(), expected.measures.phase_difference());
   EXPECT_EQ(resumed.origin.is_sphere, expected.is_sphere);
-  EXPECT_EQ(resumed.model.targets.volume->last(), expected.measures.volume);
+  EXPECT_EQ(resumed.model.targets.of<model::Volume>()->last(), expected.measures.volume());
   EXPECT_EQ(resumed.start.time, 1.5);
 }
 

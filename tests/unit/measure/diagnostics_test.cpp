@@ -32,29 +32,31 @@ class DiagnosticsOfASphere : public ::testing::Test {
 
 TEST_F(DiagnosticsOfASphere, HaveTheEnergiesOfPhaseOne) {
   const auto energy = measured().energy;
-  EXPECT_NEAR(energy.bending, 3 * 8 * pi, 3 * 8 * pi * 5e-5);  // area error of 1442 nodes
-  EXPECT_NEAR(energy.gaussian, 0.5 * 4 * pi, 0.5 * 4 * pi * 1e-2);
-  EXPECT_FALSE(energy.line.has_value());
-  EXPECT_DOUBLE_EQ(energy.total(), energy.bending + energy.gaussian);
+  EXPECT_NEAR(*energy.of<model::BendingEnergy>(), 3 * 8 * pi,
+              3 * 8 * pi * 5e-5);  // area error of 1442 nodes
+  EXPECT_NEAR(*energy.of<model::GaussianEnergy>(), 0.5 * 4 * pi, 0.5 * 4 * pi * 1e-2);
+  EXPECT_FALSE(energy.of<model::LineEnergy>().has_value());
+  EXPECT_DOUBLE_EQ(energy.total(),
+                   *energy.of<model::BendingEnergy>() + *energy.of<model::GaussianEnergy>());
 }
 
 TEST_F(DiagnosticsOfASphere, HaveTheMaterialOfTheTime) {
-  const double before = measured().energy.bending;
+  const double before = *measured().energy.of<model::BendingEnergy>();
   auto& k = case_.model.material.bending_rigidity.phase_1;
   k = model::Schedule::ramp(3, 12, 0, 2);
-  EXPECT_EQ(measured().energy.bending, before);
+  EXPECT_EQ(*measured().energy.of<model::BendingEnergy>(), before);
   case_.start.time = 2.0 / 3;
-  EXPECT_NEAR(measured().energy.bending, 2 * before, 1e-12 * before);
+  EXPECT_NEAR(*measured().energy.of<model::BendingEnergy>(), 2 * before, 1e-12 * before);
   EXPECT_DOUBLE_EQ(nodal_fields(case_.model, case_.start).bending_energy_density[0], 3);
   case_.start.time = 5;
-  EXPECT_NEAR(measured().energy.bending, 4 * before, 1e-12 * before);
+  EXPECT_NEAR(*measured().energy.of<model::BendingEnergy>(), 4 * before, 1e-12 * before);
 }
 
 TEST_F(DiagnosticsOfASphere, GiveConstraintErrorsRelativeToTheirTargets) {
   const auto diagnostics = measured();
-  EXPECT_NEAR(*diagnostics.constraint_errors.volume, 0, 5e-5);
-  EXPECT_NEAR(*diagnostics.constraint_errors.area, 1.0 / 15, 5e-5);
-  EXPECT_FALSE(diagnostics.constraint_errors.phase.has_value());
+  EXPECT_NEAR(*diagnostics.constraint_errors.of<model::Volume>(), 0, 5e-5);
+  EXPECT_NEAR(*diagnostics.constraint_errors.of<model::Area>(), 1.0 / 15, 5e-5);
+  EXPECT_FALSE(diagnostics.constraint_errors.of<model::PhaseDifference>().has_value());
 }
 
 TEST_F(DiagnosticsOfASphere, SeeThatATranslationIsARigidMotion) {
@@ -78,9 +80,11 @@ TEST(Diagnostics, IntegrateTheLineEnergyAndThePhaseDifference) {
   c.start.values.order_parameter.setZero();
   const auto diagnostics = measure(c.model, c.start);
   // psi(0) / eps = 1 / 0.6 on the whole surface, h(0) = 0
-  EXPECT_NEAR(*diagnostics.energy.line, diagnostics.area / 0.6, 1e-12 * diagnostics.area);
-  EXPECT_NEAR(*diagnostics.phase_difference, 0, 1e-13);
-  EXPECT_NEAR(*diagnostics.constraint_errors.phase, -4.71 / diagnostics.area, 1e-13);
+  EXPECT_NEAR(*diagnostics.energy.of<model::LineEnergy>(), diagnostics.measures.area() / 0.6,
+              1e-12 * diagnostics.measures.area());
+  EXPECT_NEAR(*diagnostics.measures.phase_difference(), 0, 1e-13);
+  EXPECT_NEAR(*diagnostics.constraint_errors.of<model::PhaseDifference>(),
+              -4.71 / diagnostics.measures.area(), 1e-13);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ TEST(CeresStepper, ScalingOfTheShapeTiesTheMultipliersTogether) {
   const auto result = test::run_case(prolate_case(3.35), minimize());
   // The bending energy does not depend on the size: 3 lambda_V V + 2 lambda_A A = 0.
   const auto& multipliers = result.state.values.multipliers;
-  const double volume_part = 3 * *multipliers.volume * 3.35;
-  EXPECT_NEAR(volume_part + 2 * *multipliers.area * 4 * pi, 0, 1e-3 * volume_part);
+  const double volume_part = 3 * *multipliers.of<model::Volume>() * 3.35;
+  EXPECT_NEAR(volume_part + 2 * *multipliers.of<model::Area>() * 4 * pi, 0, 1e-3 * volume_part);
 }
 
 TEST(CeresStepper, StateReportAndEnergyBelongTogether) {
@@ -89,9 +89,11 @@ TEST(CeresStepper, TakesTheSameStepsInOtherUnits) {
   material.interface_width = material.interface_width.scaled(length);
   material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
   auto& targets = scaled.model.targets;
-  targets.volume = model::Schedule(targets.volume->last() * length * length * length);
-  targets.area = model::Schedule(targets.area->last() * length * length);
-  targets.phase_difference = model::Schedule(targets.phase_difference->last() * length * length);
+  targets.of<model::Volume>() =
+      model::Schedule(targets.of<model::Volume>()->last() * length * length * length);
+  targets.of<model::Area>() = model::Schedule(targets.of<model::Area>()->last() * length * length);
+  targets.of<model::PhaseDifference>() =
+      model::Schedule(targets.of<model::PhaseDifference>()->last() * length * length);
   scaled.start.values.positions *= length;
   const auto here = test::run_case(c, minimize());
   const auto there = test::run_case(scaled, minimize());
@@ -103,12 +105,12 @@ TEST(CeresStepper, TakesTheSameStepsInOtherUnits) {
 
 TEST(CeresStepper, LeavesAConstraintFreeThatHasNoTarget) {
   auto c = prolate_case(3.35);
-  c.model.targets.volume.reset();
+  c.model.targets.of<model::Volume>().reset();
   const auto result = test::run_case(c, minimize());
   ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
-  EXPECT_FALSE(result.state.values.multipliers.volume);
+  EXPECT_FALSE(result.state.values.multipliers.of<model::Volume>());
   EXPECT_NEAR(result.energy(), 8 * pi, 1e-2);  // a sphere
-  EXPECT_NEAR(*result.state.values.multipliers.area, 0, 1e-2);
+  EXPECT_NEAR(*result.state.values.multipliers.of<model::Area>(), 0, 1e-2);
 }
 
 TEST(CeresStepper, FinishTakesTheConstraintsToRoundOff) {
@@ -116,11 +118,12 @@ TEST(CeresStepper, FinishTakesTheConstraintsToRoundOff) {
   const auto stepper = run::make_stepper(minimize(), c.model, c.start);
   for (int step = 0; step < 4; ++step) (void)stepper->step(infinity);
   const auto before = measure::measure(c.model, stepper->state());
-  ASSERT_GT(std::abs(*before.constraint_errors.volume), 1e-9);
+  ASSERT_GT(std::abs(*before.constraint_errors.of<model::Volume>()), 1e-9);
   ASSERT_EQ(stepper->finish().status, solve::StepStatus::accepted);
   const auto after = measure::measure(c.model, stepper->state());
-  for (const auto& error : {after.constraint_errors.volume, after.constraint_errors.area,
-                            after.constraint_errors.phase})
+  for (const auto& error :
+       {after.constraint_errors.of<model::Volume>(), after.constraint_errors.of<model::Area>(),
+        after.constraint_errors.of<model::PhaseDifference>()})
     EXPECT_LT(std::abs(*error), 1e-12);
 }
 
@@ -161,7 +164,7 @@ TEST(CeresStepper, SaysThatConstraintsCannotBeMetAndKeepsAGoodState) {
 
 TEST(CeresStepper, RefusesARampedTarget) {
   auto c = prolate_case(3.35);
-  c.model.targets.volume = model::Schedule::ramp(3.5, 3.35, 0, 1);
+  c.model.targets.of<model::Volume>() = model::Schedule::ramp(3.5, 3.35, 0, 1);
   EXPECT_THROW((void)run::make_stepper(minimize(), c.model, c.start), ConfigError);
 }
 

@@ -145,7 +145,7 @@ TEST_F(MinimiserVariables, ThePenaltyHasNoLargeCurvatureInAnyDirection) {
 
 TEST_F(MinimiserVariables, RefusesATargetThatChangesInTime) {
   auto ramped = model_;
-  ramped.targets.volume = model::Schedule::ramp(5, 4, 0, 1);
+  ramped.targets.of<model::Volume>() = model::Schedule::ramp(5, 4, 0, 1);
   try {
     const ConstraintSet constraints(ramped, scales_);
     FAIL() << "accepted";

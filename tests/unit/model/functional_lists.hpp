@@ -27,30 +27,13 @@ struct FunctionalName {
   }
 };
 
-template <class Functional, class T>
-T density_of(const Material& material, const SurfacePoint<T>& point) {
-  if constexpr (requires { Functional::density(material, point); }) {
-    return Functional::density(material, point);
-  } else {
-    return Functional::density(point);
-  }
-}
-
-template <class Functional, class T>
-Variation<T> variation_of(const Material& material, const SurfacePoint<T>& point) {
-  if constexpr (requires { Functional::variation(material, point); }) {
-    return Functional::variation(material, point);
-  } else {
-    return Functional::variation(point);
-  }
-}
-
 /// All constants different from each other and from zero.
 inline Material generic_material() {
   Material material;
   material.bending_rigidity = {1.5, 1.0};
   material.spontaneous_curvature = {-0.7, 1.1};
   material.gaussian_rigidity = {2.0, -0.6};
+  material.surface_tension = {0.8, -0.5};
   material.line_tension = 1.3;
   material.interface_width = 0.4;
   return material;

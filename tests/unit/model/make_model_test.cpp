@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "vesica/core/error.hpp"
@@ -22,7 +23,20 @@ Target ramp(double from, double to, double t0, double t1) {
 }
 const Target free_target{TargetKind::free, {}};
 
-std::string refusal(const ConstraintOptions& options, bool is_two_phase = true) {
+/// Options by the keys of a case file.
+struct Given {
+  Target volume{};
+  Target area{};
+  Target phase_difference{};
+  std::optional<double> reduced_volume{};
+  std::optional<double> phase_fraction{};
+
+  operator ConstraintOptions() const {
+    return {{volume, area, phase_difference}, reduced_volume, phase_fraction};
+  }
+};
+
+std::string refusal(const Given& options, bool is_two_phase = true) {
   try {
     (void)make_targets(options, start, is_two_phase);
   } catch (const ConfigError& error) {
@@ -42,51 +56,55 @@ std::string refusal(const MaterialOptions& options, double area = unit_sphere_ar
 
 TEST(Targets, TakeWhatTheStartHasByDefault) {
   const auto targets = make_targets({}, start, true);
-  EXPECT_EQ(targets.volume->first(), 3.0);
-  EXPECT_EQ(targets.area->last(), unit_sphere_area);
-  EXPECT_EQ(targets.phase_difference->value(7), 1.0);
+  EXPECT_EQ(targets.of<Volume>()->first(), 3.0);
+  EXPECT_EQ(targets.of<Area>()->last(), unit_sphere_area);
+  EXPECT_EQ(targets.of<PhaseDifference>()->value(7), 1.0);
 }
 
 TEST(Targets, OfFreeQuantitiesAreAbsent) {
   const auto targets = make_targets(
-      {.volume = free_target, .area = free_target, .phase_difference = free_target}, start, true);
-  EXPECT_FALSE(targets.volume || targets.area || targets.phase_difference);
+      Given{.volume = free_target, .area = free_target, .phase_difference = free_target}, start,
+      true);
+  EXPECT_FALSE(targets.of<Volume>() || targets.of<Area>() || targets.of<PhaseDifference>());
 }
 
 TEST(Targets, OfASinglePhaseVesicleHaveNoPhaseDifference) {
-  EXPECT_FALSE(make_targets({}, start, false).phase_difference);
-  EXPECT_FALSE(make_targets({.phase_difference = free_target}, start, false).phase_difference);
+  EXPECT_FALSE(make_targets({}, start, false).of<PhaseDifference>());
+  EXPECT_FALSE(
+      make_targets(Given{.phase_difference = free_target}, start, false).of<PhaseDifference>());
 }
 
 TEST(Targets, WaitForAPhaseFieldThatIsNotMadeYet) {
   const Measures before{3.0, unit_sphere_area, std::nullopt};
-  EXPECT_FALSE(make_targets({}, before, true).phase_difference);
-  EXPECT_TRUE(make_targets({.phase_difference = number(1)}, before, true).phase_difference);
+  EXPECT_FALSE(make_targets({}, before, true).of<PhaseDifference>());
+  EXPECT_TRUE(
+      make_targets(Given{.phase_difference = number(1)}, before, true).of<PhaseDifference>());
 }
 
 TEST(Targets, KeepRampsAsTheyAreGiven) {
-  const auto targets = make_targets({.volume = ramp(3, 2, 0.5, 1.5)}, start, true);
-  EXPECT_EQ(targets.volume->value(0), 3);
-  EXPECT_EQ(targets.volume->value(1), 2.5);
-  EXPECT_EQ(targets.volume->value(2), 2);
+  const auto targets = make_targets(Given{.volume = ramp(3, 2, 0.5, 1.5)}, start, true);
+  EXPECT_EQ(targets.of<Volume>()->value(0), 3);
+  EXPECT_EQ(targets.of<Volume>()->value(1), 2.5);
+  EXPECT_EQ(targets.of<Volume>()->value(2), 2);
 }
 
 TEST(Targets, FromReducedNumbersReferToTheAreaTarget) {
   const auto targets = make_targets(
-      {.area = number(4 * unit_sphere_area), .reduced_volume = 0.5, .phase_fraction = 0.25}, start,
-      true);
-  EXPECT_NEAR(targets.volume->first(), 0.5 * 8 * unit_ball, 1e-13);
-  EXPECT_NEAR(targets.phase_difference->first(), 2 * unit_sphere_area, 1e-13);
+      Given{.area = number(4 * unit_sphere_area), .reduced_volume = 0.5, .phase_fraction = 0.25},
+      start, true);
+  EXPECT_NEAR(targets.of<Volume>()->first(), 0.5 * 8 * unit_ball, 1e-13);
+  EXPECT_NEAR(targets.of<PhaseDifference>()->first(), 2 * unit_sphere_area, 1e-13);
 }
 
 TEST(Targets, FromReducedNumbersFollowARampOfTheArea) {
-  const auto targets = make_targets({.area = ramp(unit_sphere_area, 4 * unit_sphere_area, 1, 2),
-                                     .reduced_volume = 0.5,
-                                     .phase_fraction = 0.25},
-                                    start, true);
-  EXPECT_NEAR(targets.volume->value(1), 0.5 * unit_ball, 1e-13);
-  EXPECT_NEAR(targets.volume->value(2), 4 * unit_ball, 1e-13);
-  EXPECT_NEAR(targets.phase_difference->value(1.5), 0.5 * 2.5 * unit_sphere_area, 1e-13);
+  const auto targets =
+      make_targets(Given{.area = ramp(unit_sphere_area, 4 * unit_sphere_area, 1, 2),
+                         .reduced_volume = 0.5,
+                         .phase_fraction = 0.25},
+                   start, true);
+  EXPECT_NEAR(targets.of<Volume>()->value(1), 0.5 * unit_ball, 1e-13);
+  EXPECT_NEAR(targets.of<Volume>()->value(2), 4 * unit_ball, 1e-13);
+  EXPECT_NEAR(targets.of<PhaseDifference>()->value(1.5), 0.5 * 2.5 * unit_sphere_area, 1e-13);
 }
 
 TEST(Targets, RefuseAReducedVolumeAboveOne) {
@@ -165,12 +183,13 @@ TEST(Targets, RefuseAPhaseTargetForASinglePhaseVesicle) {
 TEST(Targets, MayBeginWithWhatTheStartHas) {
   Target deflation = ramp(0, 2, 1, 3);
   deflation.begins_at_start = true;
-  const auto targets = make_targets({.volume = deflation}, start, true);
-  EXPECT_EQ(targets.volume->value(0), start.volume);
-  EXPECT_EQ(targets.volume->value(2), 2.5);
-  EXPECT_EQ(targets.volume->value(3), 2);
+  const auto targets = make_targets(Given{.volume = deflation}, start, true);
+  EXPECT_EQ(targets.of<Volume>()->value(0), start.volume());
+  EXPECT_EQ(targets.of<Volume>()->value(2), 2.5);
+  EXPECT_EQ(targets.of<Volume>()->value(3), 2);
   const Measures before{3.0, unit_sphere_area, std::nullopt};
-  EXPECT_FALSE(make_targets({.phase_difference = deflation}, before, true).phase_difference);
+  EXPECT_FALSE(
+      make_targets(Given{.phase_difference = deflation}, before, true).of<PhaseDifference>());
 }
 
 TEST(Targets, RefuseAnImpossibleVolumeInAnyStage) {
@@ -265,11 +284,12 @@ TEST(ReducedNumbers, OfSection42ComeOutAsInThePaperAndBackAgain) {
   EXPECT_NEAR(phase_fraction, 0.44, 5e-3);
   EXPECT_NEAR(reduced_line_tension, 32, 1e-3);
 
-  const auto targets = make_targets(
-      {.reduced_volume = reduced_volume, .phase_fraction = phase_fraction}, {4.0, area, 0.0}, true);
-  EXPECT_NEAR(targets.volume->first(), volume, 1e-14 * volume);
-  EXPECT_NEAR(targets.phase_difference->first(), difference, 1e-14 * area);
-  EXPECT_TRUE(targets.volume->is_constant() && targets.phase_difference->is_constant());
+  const auto targets =
+      make_targets(Given{.reduced_volume = reduced_volume, .phase_fraction = phase_fraction},
+                   {4.0, area, 0.0}, true);
+  EXPECT_NEAR(targets.of<Volume>()->first(), volume, 1e-14 * volume);
+  EXPECT_NEAR(targets.of<PhaseDifference>()->first(), difference, 1e-14 * area);
+  EXPECT_TRUE(targets.of<Volume>()->is_constant() && targets.of<PhaseDifference>()->is_constant());
 
   const auto material = resolved_material({.reduced_line_tension = reduced_line_tension,
                                            .rigidity_ratio = 1.0,

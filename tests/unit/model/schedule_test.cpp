@@ -111,7 +111,7 @@ TEST(Model, ChangesWhereverAScheduleDoes) {
   Model model;
   EXPECT_EQ(model.next_kink(-1), infinity);
   EXPECT_EQ(model.rests_after(), -infinity);
-  model.targets.volume = Schedule::ramp(4, 3, 1, 5);
+  model.targets.of<model::Volume>() = Schedule::ramp(4, 3, 1, 5);
   model.material.spontaneous_curvature.phase_2 =
       Schedule::points(ScheduleKind::stages, {2, 3}, {0, -1});
   EXPECT_EQ(model.next_kink(0), 1);

@@ -66,7 +66,7 @@ double first_variation(const Material& material, const PeriodicGrid& grid, const
   const ArrayXd eta_t = grid.differentiate(example.eta);
   double sum = 0;
   for (Eigen::Index j = 0; j < points.size(); ++j) {
-    const auto v = variation_of<Functional>(material, points[j]);
+    const auto v = variation_of_term<Functional>(material, points[j]);
     sum += sampled.area_weights()[j] *
            (v.a * example.w[j] + dot(v.b, sampled.gradient(w_t[j], j)) + v.s * example.eta[j] +
             dot(v.q, sampled.gradient(eta_t[j], j)));

@@ -128,7 +128,7 @@ TEST(SemiImplicitProblem, TheSlopesOfTheConstraintsAreCloseToDifferences) {
   const auto sphere = test::make_sphere(8);
   auto vesicle = test::single_phase_case(sphere, 4, 12);
   vesicle.model.is_two_phase = true;
-  vesicle.model.targets.phase_difference = model::Schedule(3);
+  vesicle.model.targets.of<model::PhaseDifference>() = model::Schedule(3);
   auto& values = vesicle.start.values;
   values.mean_curvature.setConstant(-2);
   values.order_parameter = 0.8 * values.positions.col(0).array() + 0.1;

@@ -14,9 +14,12 @@ TEST(DofLayout, ReturnsTheFieldsThatWerePackedForEveryModel) {
     const auto fields = layout.unpack(c.y);
     EXPECT_EQ(fields.positions, c.surface.positions);
     EXPECT_EQ(layout.pack(fields), c.y);
-    EXPECT_EQ(fields.multipliers.volume.has_value(), c.model.targets.volume.has_value());
-    EXPECT_EQ(fields.multipliers.area.has_value(), c.model.targets.area.has_value());
-    EXPECT_EQ(fields.multipliers.phase.has_value(), c.model.targets.phase_difference.has_value());
+    EXPECT_EQ(fields.multipliers.of<model::Volume>().has_value(),
+              c.model.targets.of<model::Volume>().has_value());
+    EXPECT_EQ(fields.multipliers.of<model::Area>().has_value(),
+              c.model.targets.of<model::Area>().has_value());
+    EXPECT_EQ(fields.multipliers.of<model::PhaseDifference>().has_value(),
+              c.model.targets.of<model::PhaseDifference>().has_value());
   }
 }
 

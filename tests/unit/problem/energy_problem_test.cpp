@@ -209,8 +209,8 @@ TEST(EnergyProblem, GivesTheEnergyOfASphereToFourthOrder) {
     const auto sphere = test::make_sphere(level == 0 ? 4 : 8, 0.7);
     const EnergyProblem problem(sphere.triangulation, model, 1);
     const auto energy = problem.energy(problem.fields(sphere.positions, {}));
-    EXPECT_DOUBLE_EQ(energy.gaussian, 0.4 * 4 * std::numbers::pi);
-    errors[level] = std::abs(energy.bending - 1.3 * 8 * std::numbers::pi);
+    EXPECT_DOUBLE_EQ(*energy.of<model::GaussianEnergy>(), 0.4 * 4 * std::numbers::pi);
+    errors[level] = std::abs(*energy.of<model::BendingEnergy>() - 1.3 * 8 * std::numbers::pi);
   }
   EXPECT_GT(errors[0], 1e-9);
   EXPECT_GT(std::log2(errors[0] / errors[1]), 3.5);
@@ -242,7 +242,7 @@ TEST(EnergyProblem, GivesTheGaussianEnergyOfAnEllipsoidToThirdOrder) {
     const EnergyProblem problem(surface.triangulation, model, 1);
     const Eigen::VectorXd c = 0.5 + (0.5 / 1.6) * surface.positions.col(2).array();
     const auto energy = problem.energy({surface.positions, mesh::Positions::Zero(c.size(), 3), c});
-    errors[level] = std::abs(energy.gaussian - exact);
+    errors[level] = std::abs(*energy.of<model::GaussianEnergy>() - exact);
   }
   EXPECT_LT(errors[1], 1e-4 * std::abs(exact));
   EXPECT_GT(errors[0], 1e-7);

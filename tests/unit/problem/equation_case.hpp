@@ -64,9 +64,9 @@ inline model::Model two_phase_model() {
   model.material.line_tension = 1.2;
   model.material.interface_width = 0.4;
   model.material.kinetic_coefficient = 0.3;
-  model.targets.volume = model::Schedule::ramp(5, 4, 0, 1);
-  model.targets.area = model::Schedule(14);
-  model.targets.phase_difference = model::Schedule::ramp(1, 2, 0.2, 0.8);
+  model.targets.of<model::Volume>() = model::Schedule::ramp(5, 4, 0, 1);
+  model.targets.of<model::Area>() = model::Schedule(14);
+  model.targets.of<model::PhaseDifference>() = model::Schedule::ramp(1, 2, 0.2, 0.8);
   return model;
 }
 
@@ -117,16 +117,16 @@ inline std::vector<EquationCase> equation_cases() {
   cases.push_back(make_equation_case("two phases", two_phase_model()));
   cases.push_back(make_equation_case("two phases, material in motion", model_in_motion()));
   auto free_area = two_phase_model();
-  free_area.targets.area.reset();
+  free_area.targets.of<model::Area>().reset();
   cases.push_back(make_equation_case("two phases, area free", free_area));
   auto unconstrained = two_phase_model();
   unconstrained.targets = {};
   cases.push_back(make_equation_case("two phases, no constraint", unconstrained));
   auto single = two_phase_model();
   single.is_two_phase = false;
-  single.targets.phase_difference.reset();
+  single.targets.of<model::PhaseDifference>().reset();
   cases.push_back(make_equation_case("one phase", single));
-  single.targets.volume.reset();
+  single.targets.of<model::Volume>().reset();
   cases.push_back(make_equation_case("one phase, volume free", single));
   return cases;
 }

@@ -90,10 +90,11 @@ bool is_coupled(const EquationCase& c, Group equation, Group unknown) {
     case Group::curvature:
       return true;
     case Group::phase:
-      return unknown != Group::multiplier || c.model.targets.phase_difference.has_value();
+      return unknown != Group::multiplier ||
+             c.model.targets.of<model::PhaseDifference>().has_value();
     case Group::multiplier:
       return unknown == Group::position ||
-             (unknown == Group::phase && c.model.targets.phase_difference.has_value());
+             (unknown == Group::phase && c.model.targets.of<model::PhaseDifference>().has_value());
   }
   return false;
 }

@@ -42,11 +42,11 @@ std::vector<FlowCase> flow_cases() {
   cases.push_back(make_flow_case("two phases", two_phase_model()));
   cases.push_back(make_flow_case("two phases, material in motion", model_in_motion()));
   auto free_area = two_phase_model();
-  free_area.targets.area.reset();
+  free_area.targets.of<model::Area>().reset();
   cases.push_back(make_flow_case("two phases, area free", free_area));
   auto single = two_phase_model();
   single.is_two_phase = false;
-  single.targets.phase_difference.reset();
+  single.targets.of<model::PhaseDifference>().reset();
   cases.push_back(make_flow_case("one phase", single));
   return cases;
 }
@@ -132,7 +132,7 @@ TEST(VariationalProblem, KeepsSurfaceAndNormalVelocityWhenTheReferenceIsRenewed)
   auto c = make_flow_case("one phase", [] {
     auto model = two_phase_model();
     model.is_two_phase = false;
-    model.targets.phase_difference.reset();
+    model.targets.of<model::PhaseDifference>().reset();
     return model;
   }());
   ASSERT_FALSE(c.problem->renew_coordinates(c.y, c.y_rate));

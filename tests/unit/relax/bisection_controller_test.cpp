@@ -148,8 +148,9 @@ class BisectionPlanTest : public BisectionControllerTest {
               error);
     const auto before = measure::measure(model_, state_);
     const auto after = measure::measure(model_, *changed);
-    EXPECT_NEAR(after.volume, before.volume, 1e-4);  // nu and kappa nu are parallel on a sphere
-    EXPECT_NEAR(after.area, before.area, 1e-4);
+    EXPECT_NEAR(after.measures.volume(), before.measures.volume(),
+                1e-4);  // nu and kappa nu are parallel on a sphere
+    EXPECT_NEAR(after.measures.area(), before.measures.area(), 1e-4);
   }
 
   paper::BisectionOptions marking_;

@@ -100,7 +100,7 @@ TEST_F(RelaxTest, ConvergesWithoutTheFinalSolveWhenTheConstraintsAreMetAnyway) {
 }
 
 TEST_F(RelaxTest, DoesNotConvergeWhileAConstraintIsViolated) {
-  model_.targets.area = model::Schedule(13);  // the fake stays at 4 pi
+  model_.targets.of<model::Area>() = model::Schedule(13);  // the fake stays at 4 pi
   stop_.max_steps = 8;
   FakeStepper stepper([](long) { return 1e-5; });
   EXPECT_EQ(run(stepper).status, RunStatus::step_limit);

@@ -48,9 +48,9 @@ TEST(Remesh, KeepsVolumeAreaAndPhaseDifference) {
   EXPECT_NE(changed->triangulation->num_nodes(), c.start.triangulation->num_nodes());
   const auto before = measure::measure(c.model, c.start);
   const auto after = measure::measure(c.model, *changed);
-  EXPECT_NEAR(after.volume, before.volume, 1e-11);
-  EXPECT_NEAR(after.area, before.area, 1e-11);
-  EXPECT_NEAR(*after.phase_difference, *before.phase_difference, 1e-11);
+  EXPECT_NEAR(after.measures.volume(), before.measures.volume(), 1e-11);
+  EXPECT_NEAR(after.measures.area(), before.measures.area(), 1e-11);
+  EXPECT_NEAR(*after.measures.phase_difference(), *before.measures.phase_difference(), 1e-11);
   EXPECT_GT(after.quality, 0.45);
 }
 
@@ -65,8 +65,8 @@ TEST(Remesh, CarriesFieldsOverAndKeepsTheRest) {
   EXPECT_LT((changed->values.order_parameter - c_there).cwiseAbs().maxCoeff(), 2e-2);
   EXPECT_LT((changed->values.mean_curvature - kappa_there).cwiseAbs().maxCoeff(), 2e-2);
   EXPECT_LT((changed->rates.positions - 0.1 * x).cwiseAbs().maxCoeff(), 2e-3);
-  EXPECT_EQ(changed->values.multipliers.volume, 27.0);
-  EXPECT_EQ(changed->values.multipliers.phase, 1.5);
+  EXPECT_EQ(changed->values.multipliers.of<model::Volume>(), 27.0);
+  EXPECT_EQ(changed->values.multipliers.of<model::PhaseDifference>(), 1.5);
   EXPECT_EQ(changed->time, 0.25);
   EXPECT_EQ(changed->damping, 0.75);
 }
@@ -125,26 +125,29 @@ TEST(WantedSizes, GrowByOneFactorToHalfAndThenAllTogetherWhereNodesAreShort) {
 
 TEST(Remesh, InTheMiddleOfARampGoesOnWithIt) {
   auto c = test::table_1_case(2);
-  const double volume = c.model.targets.volume->last();
-  c.model.targets.volume = model::Schedule::ramp(volume, 0.9 * volume, 0, 0.04);
+  const double volume = c.model.targets.of<model::Volume>()->last();
+  c.model.targets.of<model::Volume>() = model::Schedule::ramp(volume, 0.9 * volume, 0, 0.04);
   c.model.material.line_tension = model::Schedule::ramp(1, 2, 0, 0.04);
   auto stepper = run::make_stepper({}, c.model, c.start);
   solve::StepReport report;
   while (stepper->state().time < 0.02) report = stepper->step(0.02);
   const auto before = measure::measure(c.model, stepper->state());
-  ASSERT_LT(std::abs(*before.constraint_errors.volume), 5e-3);
+  ASSERT_LT(std::abs(*before.constraint_errors.of<model::Volume>()), 5e-3);
   auto changed = remeshed(c.model, stepper->state(), request());
   ASSERT_TRUE(changed.has_value());
-  EXPECT_NEAR(*measure::measure(c.model, *changed).constraint_errors.volume,
-              *before.constraint_errors.volume, 1e-10);
+  EXPECT_NEAR(*measure::measure(c.model, *changed).constraint_errors.of<model::Volume>(),
+              *before.constraint_errors.of<model::Volume>(), 1e-10);
   stepper = run::restart_stepper({}, c.model, std::move(*changed), {0.3 * report.step_size});
   while (stepper->state().time < 0.08) {
     report = stepper->step(0.08);
     ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
-    const auto error = measure::measure(c.model, stepper->state()).constraint_errors.volume;
+    const auto error =
+        measure::measure(c.model, stepper->state()).constraint_errors.of<model::Volume>();
     EXPECT_LT(std::abs(*error), 5e-3) << "t = " << stepper->state().time;
   }
-  EXPECT_LT(std::abs(*measure::measure(c.model, stepper->state()).constraint_errors.volume), 5e-4);
+  EXPECT_LT(
+      std::abs(*measure::measure(c.model, stepper->state()).constraint_errors.of<model::Volume>()),
+      5e-4);
 }
 
 /// Asks for one new mesh after a step, when a step fails, or at the end.

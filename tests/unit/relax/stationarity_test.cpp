@@ -13,7 +13,7 @@ namespace {
 class StationarityTest : public ControllerTest {
  protected:
   StationarityTest() {
-    diagnostics_.area = 16 * std::numbers::pi;
+    diagnostics_.measures.of<model::Area>() = 16 * std::numbers::pi;
     diagnostics_.constraint_errors = {1e-9, -1e-9, std::nullopt};
     options_.end_time = 100;
     options_.max_steps = 50;
@@ -75,7 +75,7 @@ TEST_F(StationarityTest, CountsTheStepsWithoutNewtonIterations) {
 }
 
 TEST_F(StationarityTest, DoesNotRestWhileATargetMoves) {
-  model_.targets.volume = model::Schedule::ramp(1, 2, 0, 10);
+  model_.targets.of<model::Volume>() = model::Schedule::ramp(1, 2, 0, 10);
   options_.rest_steps = 1;
   Stationarity criterion(options_, model_);
   state_.time = 5;
@@ -102,7 +102,7 @@ TEST_F(StationarityTest, DoesNotRestBeforeTheLastStageOfTheMaterial) {
 TEST_F(StationarityTest, WantsEveryConstraintThatThereIs) {
   const Stationarity criterion(options_, model_);
   EXPECT_TRUE(criterion.meets_constraints(diagnostics_));
-  diagnostics_.constraint_errors.area = -2e-8;
+  diagnostics_.constraint_errors.of<model::Area>() = -2e-8;
   EXPECT_FALSE(criterion.meets_constraints(diagnostics_));
   diagnostics_.constraint_errors = {};
   EXPECT_TRUE(criterion.meets_constraints(diagnostics_));

@@ -8,11 +8,11 @@ namespace {
 /// A vesicle at rest after a step that took `newton` Newton iterations in all.
 bool is_at_rest(Stationarity& criterion, long newton) {
   problem::State state;
-  state.values.multipliers.volume = 1.0;
+  state.values.multipliers.of<model::Volume>() = 1.0;
   solve::StepReport report;
   report.counts.newton = newton;
   measure::Diagnostics diagnostics;
-  diagnostics.area = 12.5;
+  diagnostics.measures.of<model::Area>() = 12.5;
   return criterion.is_at_rest({state, report, diagnostics});
 }
 

@@ -35,7 +35,7 @@ TEST(Polish, TakesTheVariationalFlowToRoundOffInAFewSteps) {
   EXPECT_LE(polish->iterations, 4);
   EXPECT_GT(polish->iterations, 0);
   EXPECT_GT(polish->curvature.value, 0);
-  EXPECT_LT(std::abs(*result.outcome.diagnostics.constraint_errors.volume), 1e-12);
+  EXPECT_LT(std::abs(*result.outcome.diagnostics.constraint_errors.of<model::Volume>()), 1e-12);
 }
 
 TEST(Polish, TakesTheWeakFormToRest) {
