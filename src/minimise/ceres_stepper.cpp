@@ -14,7 +14,7 @@ namespace vesica::minimise {
 
 namespace {
 
-// Measured (docs/minimisation.md); lengths in R_c, energies in k_1.
+// Measured (docs/lab-notes/minimisation.md); lengths in R_c, energies in k_1.
 constexpr double penalty = 1e3;  // rho at least
 constexpr double penalty_per_multiplier = 40;
 constexpr double penalty_factor = 3;  // when a constraint error does not fall

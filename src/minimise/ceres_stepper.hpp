@@ -15,8 +15,9 @@ namespace vesica::minimise {
 /// Minimises the discrete energy at fixed volume, area and phase difference. A step is one outer
 /// iteration: a normal graph over the present surface, multipliers, some iterations of L-BFGS on
 /// the augmented Lagrangian in preconditioned variables, and when the mesh has become worse, a
-/// redistribution of its nodes along the surface (docs/minimisation.md). A step whose mesh is
-/// degenerate or whose line search finds nothing is tried again with shorter steps, then fails.
+/// redistribution of its nodes along the surface (docs/lab-notes/minimisation.md). A step whose
+/// mesh is degenerate or whose line search finds nothing is tried again with shorter steps, then
+/// fails.
 ///
 /// There is no time: `State::time` counts outer iterations, so that the frames of a run are apart,
 /// and the rates are the velocity that the gradient flow would have in the state. In the reports,
