@@ -2,7 +2,9 @@
 # and are collected in `vesica_private`, which the unit tests of private headers link as well.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Spectra 1.0 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
@@ -13,7 +15,7 @@ find_package(METIS REQUIRED)
 if(NOT TARGET OpenMP::OpenMP_C)
   add_library(OpenMP::OpenMP_C INTERFACE IMPORTED)
 endif()
-find_package(SUNDIALS 6.4 REQUIRED COMPONENTS generic ida nvecserial sunlinsolspgmr)
+find_package(SUNDIALS 6.4 REQUIRED COMPONENTS generic ida kinsol nvecserial sunlinsolspgmr)
 
 find_package(Ceres 2.1 REQUIRED)
 
@@ -30,13 +32,16 @@ add_library(vesica_private INTERFACE)
 target_include_directories(vesica_private INTERFACE "${PROJECT_SOURCE_DIR}/src")
 target_link_libraries(
   vesica_private
-  INTERFACE Threads::Threads
+  INTERFACE Spectra::Spectra
+            Threads::Threads
+            TBB::tbb
             fmt::fmt
             tomlplusplus::tomlplusplus
             nlohmann_json::nlohmann_json
             METIS::METIS
             SUNDIALS::generic
             SUNDIALS::ida
+            SUNDIALS::kinsol
             SUNDIALS::nvecserial
             SUNDIALS::sunlinsolspgmr
             Ceres::ceres

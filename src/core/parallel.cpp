@@ -1,5 +1,7 @@
 #include "vesica/core/parallel.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -17,19 +19,14 @@ void parallel_for(int count, int threads, const std::function<void(int, int)>& b
   const int parts = std::clamp(threads, 1, std::max(1, count));
   if (parts == 1) return body(0, count);
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(parts));
-  const auto run_part = [&](int part) {
+  tbb::parallel_for(0, parts, [&](int part) {
     try {
       const auto bound = [&](std::int64_t p) { return static_cast<int>(p * count / parts); };
       body(bound(part), bound(part + 1));
     } catch (...) {
       failures[static_cast<std::size_t>(part)] = std::current_exception();
     }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int part = 1; part < parts; ++part) workers.emplace_back(run_part, part);
-    run_part(0);
-  }
+  });
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

@@ -109,15 +109,15 @@ NodalShapeOperator recover_shape_operator(const mesh::Triangulation& triangulati
   const FirstPass first = first_pass(triangulation, positions, threads);
   const MassMatrix mass = gather_mass_matrix(graph, first.mass, threads);
   const auto gradients = gather(graph, first.gradients, threads);
-  const auto kappa_hat = solve_mass_matrix(mass, gradients);
+  const auto kappa_hat = solve_mass_matrix(mass, gradients, threads);
   const SecondPass second = second_pass(triangulation, positions, kappa_hat, threads);
   const auto diagonal = gather(graph, second.diagonal, threads);
   const auto off_diagonal = gather(graph, second.off_diagonal, threads);
   NodalShapeOperator result(graph.num_nodes(), 6);
   parallel_for(2, threads, [&](int begin, int end) {
     for (int part = begin; part < end; ++part) {
-      if (part == 0) result.leftCols<3>() = solve_mass_matrix(mass, diagonal);
-      if (part == 1) result.rightCols<3>() = solve_mass_matrix(mass, off_diagonal);
+      if (part == 0) result.leftCols<3>() = solve_mass_matrix(mass, diagonal, 1);
+      if (part == 1) result.rightCols<3>() = solve_mass_matrix(mass, off_diagonal, 1);
     }
   });
   return result;

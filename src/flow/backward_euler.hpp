@@ -23,10 +23,10 @@ struct BackwardEulerStep {
   }
 };
 
-/// Solves it by Newton's method; linear systems by GMRES on difference quotients of the residual,
-/// with the factors of the Jacobian at the start as preconditioner: exact where that Jacobian holds
-/// a surrogate. Returns y, or nothing when the changes do not become negligible (WRMS norm below
-/// 1e-6) in max_iterations. Throws RecoverableError for a degenerate surface.
+/// Solves it by KINSOL's Newton method; linear systems by GMRES on difference quotients of the
+/// residual, with the factors of the Jacobian at the start as preconditioner: exact where that
+/// Jacobian holds a surrogate. Returns y, or nothing when the changes do not become negligible
+/// (WRMS norm below 1e-6) in max_iterations. Throws RecoverableError for a degenerate surface.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_backward_euler(solve::NewtonSystem& system,
                                                                   const BackwardEulerStep& step);
 

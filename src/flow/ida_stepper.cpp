@@ -41,8 +41,6 @@ std::unique_ptr<problem::FlowProblem> make_problem(const solve::SolverOptions& o
   return std::make_unique<problem::RelaxationProblem>(start.triangulation, model, options.threads);
 }
 
-void silence(int, const char*, const char*, char*, void*) {}
-
 }  // namespace
 
 /// Thin callbacks: they catch everything; +1 asks IDA for a smaller step, -1 ends the call.
@@ -118,7 +116,7 @@ void IdaStepper::configure_ida() {
   view(ida_y_rate_.get()) = y_rate_;
   ida_ = sundials::IdaMemory(sundials::not_null(IDACreate(context_.get()), "IDACreate"));
   void* ida = ida_.get();
-  check(IDASetErrHandlerFn(ida, silence, nullptr), "IDASetErrHandlerFn");
+  check(IDASetErrHandlerFn(ida, sundials::silence, nullptr), "IDASetErrHandlerFn");
   check(IDAInit(ida, Callbacks::residual, state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAInit");
   check(IDASetUserData(ida, this), "IDASetUserData");
 

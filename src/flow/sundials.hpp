@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <ida/ida.h>
+#include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -22,23 +23,29 @@ namespace vesica::flow::sundials {
 
 inline void free_context(SUNContext context) { SUNContext_Free(&context); }
 inline void free_ida(void* memory) { IDAFree(&memory); }
+inline void free_kinsol(void* memory) { KINFree(&memory); }
 inline void free_linear_solver(SUNLinearSolver solver) { SUNLinSolFree(solver); }
 
 using Context = Handle<SUNContext, free_context>;
 using Vector = Handle<N_Vector, N_VDestroy>;
 using IdaMemory = Handle<void*, free_ida>;
+using KinsolMemory = Handle<void*, free_kinsol>;
 using LinearSolver = Handle<SUNLinearSolver, free_linear_solver>;
 using Matrix = Handle<SUNMatrix, SUNMatDestroy>;
 
-/// Name and number of an IDA return code, "IDA_CONV_FAIL (-4)".
-inline std::string code_text(long code) {
-  const std::unique_ptr<char, decltype(&std::free)> name(IDAGetReturnFlagName(code), &std::free);
-  return fmt::format("{} ({})", name ? name.get() : "IDA error", code);
+using NameOfCode = char* (*)(long);
+
+/// Name and number of a return code of IDA or another package, "IDA_CONV_FAIL (-4)".
+inline std::string code_text(long code, NameOfCode name_of = IDAGetReturnFlagName) {
+  const std::unique_ptr<char, decltype(&std::free)> name(name_of(code), &std::free);
+  return fmt::format("{} ({})", name ? name.get() : "error", code);
 }
 
-inline void check(int code, std::string_view call) {
-  if (code < 0) throw SolverError(fmt::format("{}: {}", call, code_text(code)));
+inline void check(int code, std::string_view call, NameOfCode name_of = IDAGetReturnFlagName) {
+  if (code < 0) throw SolverError(fmt::format("{}: {}", call, code_text(code, name_of)));
 }
+
+inline void silence(int, const char*, const char*, char*, void*) {}
 
 template <class Pointer>
 Pointer not_null(Pointer object, std::string_view call) {

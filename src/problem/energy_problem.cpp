@@ -161,7 +161,7 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
     }
   });
   return fem::solve_mass_matrix(fem::gather_mass_matrix(graph_, mass, threads_),
-                                gather(graph_, rhs, 3, threads_));
+                                gather(graph_, rhs, 3, threads_), threads_);
 }
 
 EnergyFields EnergyProblem::fields(const mesh::Positions& positions,

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Spectra/LinAlg/Lanczos.h>
+
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <random>
-#include <vector>
 
 #include "newton_system.hpp"
 #include "vesica/problem/scales.hpp"
@@ -68,8 +69,6 @@ class Optimality {
   [[nodiscard]] double gradient_scale() const;
   [[nodiscard]] Errors errors(const Eigen::VectorXd& residual, double scale) const;
   [[nodiscard]] double allowed_fraction(const Eigen::VectorXd& change) const;
-  [[nodiscard]] Eigen::VectorXd metric_times(const linalg::BorderedMatrix& metric,
-                                             const Eigen::VectorXd& z) const;
 
   problem::Scales scales_;
   double time_;
@@ -132,95 +131,70 @@ PolishReport Optimality::solve() {
   return report;
 }
 
-/// The metric acts on displacements and order parameter only.
-Eigen::VectorXd Optimality::metric_times(const linalg::BorderedMatrix& metric,
-                                         const Eigen::VectorXd& z) const {
-  const Eigen::VectorXd mask = problem_.differential_mask();
-  return metric.multiply(z.cwiseProduct(mask)).cwiseProduct(mask);
-}
+/// z -> M z, for Spectra: the metric acts on displacements and order parameter only.
+struct Metric {
+  using Scalar = double;
+  linalg::BorderedMatrix matrix;
+  Eigen::VectorXd mask;
 
-/// Lanczos' method with full reorthogonalisation: a basis of the Krylov space, orthonormal in the
-/// metric, and the operator projected on it.
-class KrylovBasis {
- public:
-  /// Takes z, of length one after division, as the next vector; false when z is zero.
-  bool add(const Eigen::VectorXd& z, const Eigen::VectorXd& metric_times_z) {
-    const double length = std::sqrt(z.dot(metric_times_z));
-    if (!(length > 0)) return false;
-    vectors_.push_back(z / length);
-    products_.push_back(metric_times_z / length);
-    return true;
+  void perform_op(const double* z, double* product) const {
+    const Eigen::Map<const Eigen::VectorXd> in(z, mask.size());
+    Eigen::Map<Eigen::VectorXd>(product, mask.size()) =
+        matrix.multiply(in.cwiseProduct(mask)).cwiseProduct(mask);
   }
-
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(vectors_.size()); }
-  [[nodiscard]] const Eigen::VectorXd& last() const { return vectors_.back(); }
-
-  /// Takes the components in the basis out of the image of the last vector.
-  void project(Eigen::VectorXd& image) {
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      for (std::size_t i = 0; i < vectors_.size(); ++i) {
-        const double coefficient = products_[i].dot(image);
-        projected_(static_cast<Eigen::Index>(i), size() - 1) += coefficient;
-        image -= coefficient * vectors_[i];
-      }
-    }
-  }
-
-  /// The coefficients fill the upper triangle of a symmetric matrix.
-  [[nodiscard]] Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen() const {
-    const Eigen::MatrixXd square =
-        projected_.topLeftCorner(size(), size()).selfadjointView<Eigen::Upper>();
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(square);
-  }
-
-  [[nodiscard]] Eigen::VectorXd combine(const Eigen::VectorXd& coefficients) const {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(last().size());
-    for (std::size_t i = 0; i < vectors_.size(); ++i)
-      sum += coefficients[static_cast<Eigen::Index>(i)] * vectors_[i];
-    return sum;
-  }
-
- private:
-  std::vector<Eigen::VectorXd> vectors_;
-  std::vector<Eigen::VectorXd> products_;  // metric times the vectors
-  Eigen::MatrixXd projected_ = Eigen::MatrixXd::Zero(krylov_dimension, krylov_dimension);
 };
 
-/// Lanczos' method for (H + s M)^-1 M on the tangent space of constraints and gauge, in the inner
-/// product of M. Its extreme eigenvalues are 1 / (theta + s).
+/// z -> (H + s M)^-1 M z on the tangent space of constraints and gauge, for Spectra.
+struct Inverse {
+  using Scalar = double;
+  NewtonSystem& system;
+  const Metric& metric;
+
+  [[nodiscard]] Eigen::Index rows() const { return metric.mask.size(); }
+  void perform_op(const double* z, double* image) const {
+    Eigen::VectorXd product(rows());
+    metric.perform_op(z, product.data());
+    Eigen::Map<Eigen::VectorXd>(image, rows()) = system.solve(product);
+  }
+};
+
+/// Lanczos' method in the inner product of M. The extreme eigenvalues are 1 / (theta + s). Both
+/// ends matter, and few vectors suffice: Spectra's factorisation without its restarts.
 Curvature Optimality::lowest_curvature() {
   const double s = shift / scales_.time();
-  auto metric = problem_.make_matrix();
-  problem_.jacobian(at_rest(), {0, 1}, time_, y_, rest_, metric);
+  Metric metric{problem_.make_matrix(), problem_.differential_mask()};
+  problem_.jacobian(at_rest(), {0, 1}, time_, y_, rest_, metric.matrix);
   system_.set_up(at_rest(), {1, s}, time_, y_, rest_);
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(y_.size());
-  for (Eigen::Index row = 0; row < problem_.num_nodal(); ++row) start[row] = uniform(engine);
+  const Eigen::VectorXd start =
+      Eigen::VectorXd::NullaryExpr(y_.size(), [&] { return uniform(engine); });
 
-  const auto apply = [&](const Eigen::VectorXd& z) {
-    return system_.solve(metric_times(metric, z));
-  };
-  KrylovBasis basis;
+  using Operators = Spectra::ArnoldiOp<double, Inverse, Metric>;
+  const Inverse inverse{system_, metric};
+  Spectra::Lanczos<double, Operators> krylov(Operators(inverse, metric), krylov_dimension);
+  Eigen::Map<const Eigen::VectorXd> start_view(start.data(), start.size());
+  Eigen::Index operations = 0;
+  krylov.init(start_view, operations);
   Curvature result;
-  Eigen::VectorXd next = apply(start);
-  while (basis.size() < krylov_dimension && basis.add(next, metric_times(metric, next))) {
-    next = apply(basis.last());
-    basis.project(next);
-    const auto eigen = basis.eigen();
+  for (Eigen::Index size = 1;; ++size) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        krylov.matrix_H().topLeftCorner(size, size));
     // theta < -s shows as a negative eigenvalue of the inverse
-    const Eigen::Index which = eigen.eigenvalues()[0] < 0 ? 0 : basis.size() - 1;
+    const Eigen::Index which = eigen.eigenvalues()[0] < 0 ? 0 : size - 1;
     const double last = result.value;
     result.value = 1 / eigen.eigenvalues()[which] - s;
-    const bool is_settled = basis.size() > min_krylov_dimension &&
-                            std::abs(result.value - last) <= eigenvalue_tolerance * s;
-    if (!is_settled && basis.size() < krylov_dimension) continue;
-    result.mode = problem_.displacements(basis.combine(eigen.eigenvectors().col(which)));
-    result.mode /=
-        std::max(result.mode.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
-    break;
+    const bool is_settled =
+        size > min_krylov_dimension && std::abs(result.value - last) <= eigenvalue_tolerance * s;
+    if (is_settled || size == krylov_dimension) {
+      result.mode = problem_.displacements(krylov.matrix_V().leftCols(size) *
+                                           eigen.eigenvectors().col(which));
+      result.mode /=
+          std::max(result.mode.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+      return result;
+    }
+    krylov.factorize_from(size, size + 1, operations);
   }
-  return result;
 }
 
 }  // namespace
