@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/run_options.hpp"
+#include "common/program.hpp"
 
 namespace vesica {
 

@@ -4,15 +4,13 @@
 #include <vector>
 
 #include "arguments.hpp"
-#include "common/guarded.hpp"
-#include "common/run_case.hpp"
-#include "common/signals.hpp"
+#include "common/program.hpp"
 #include "prepare.hpp"
 #include "vesica/compare/comparison.hpp"
 #include "vesica/io/comparison_files.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/run_reader.hpp"
-#include "vesica/relax/interrupt_controller.hpp"
+#include "vesica/run/run.hpp"
 
 namespace vesica {
 namespace {
@@ -35,18 +33,19 @@ int conclude(std::vector<compare::ComparedRun> runs, const fs::path& folder, boo
 int compare_methods(const Arguments& arguments) {
   std::vector<compare::ComparedRun> results;
   PreparedComparison prepared = prepare(arguments);
-  relax::InterruptController interrupt(catch_signals());
-  for (PreparedRun& run : prepared.runs) {
-    if (!arguments.options.is_quiet) std::cout << run.name << ":\n";
-    RunResult result = run_case(run.config, run.vesicle, interrupt, arguments.options.is_quiet);
+  run::Options options = library_options(arguments.options, arguments.inputs.front());
+  options.interrupt = &catch_signals();
+  for (auto& [name, config, vesicle] : prepared.runs) {
+    if (!arguments.options.is_quiet) std::cout << name << ":\n";
+    run::Result result = run::run(config, vesicle, options);
     if (result.verdict.outcome.status == relax::RunStatus::interrupted) {
-      std::cerr << "vesica-compare: interrupted in the run " << run.name
+      std::cerr << "vesica-compare: interrupted in the run " << name
                 << ", which is saved; nothing was compared\n";
       return relax::exit_status(result.verdict.outcome);
     }
-    results.push_back({run.name, run.config.output.directory, std::move(run.vesicle.model),
+    results.push_back({name, config.output.directory, std::move(vesicle.model),
                        std::move(result.state), std::move(result.verdict),
-                       io::read_history(run.config.output.directory)});
+                       io::read_history(config.output.directory)});
   }
   return conclude(std::move(results), prepared.folder, arguments.options.is_quiet);
 }
@@ -63,8 +62,7 @@ int compare_folders(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace vesica;
-  admit_signals();
-  return guarded("vesica-compare", [&] {
+  return run_program("vesica-compare", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     if (!command_line.arguments) return command_line.status;
     const Arguments& arguments = *command_line.arguments;

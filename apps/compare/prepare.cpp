@@ -1,15 +1,16 @@
 #include "prepare.hpp"
 
-#include <iostream>
 #include <utility>
 
-#include "common/run_case.hpp"
+#include "common/program.hpp"
 #include "vesica/io/comparison_files.hpp"
+#include "vesica/run/run.hpp"
 
 namespace vesica {
 
 PreparedComparison prepare(const Arguments& arguments) {
   const std::string& case_file = arguments.inputs.front();
+  const run::Options options = library_options(arguments.options, case_file);
   PreparedComparison result;
   for (const Column& column : columns(arguments)) {
     std::vector<std::string> overrides = arguments.options.overrides;
@@ -18,15 +19,11 @@ PreparedComparison prepare(const Arguments& arguments) {
     result.folder =
         arguments.options.directory.empty() ? config.output.directory : arguments.options.directory;
     config.output.directory = (result.folder / column.name).string();
-    setup::Case vesicle = config::with_places(config, [&] {
-      check_run(config, case_file, arguments.options.overwrites);
-      return setup::make_case(config);
-    });
+    setup::Case vesicle = run::prepare(config, options);
     result.runs.push_back({column.name, std::move(config), std::move(vesicle)});
   }
   io::check_comparison_folder(result.folder, arguments.options.overwrites);
-  for (const std::string& warning : result.runs.front().vesicle.warnings)
-    std::cerr << "warning: " << warning << '\n';
+  print_warnings(result.runs.front().vesicle.warnings);
   return result;
 }
 

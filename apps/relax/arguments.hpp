@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/run_options.hpp"
+#include "common/program.hpp"
 #include "vesica/config/config.hpp"
 
 namespace vesica {

@@ -1,28 +1,23 @@
 #include <iostream>
 
 #include "arguments.hpp"
-#include "common/guarded.hpp"
-#include "common/run_case.hpp"
-#include "common/signals.hpp"
+#include "common/program.hpp"
 #include "vesica/config/config.hpp"
-#include "vesica/io/run_reader.hpp"
 #include "vesica/io/verdict_files.hpp"
-#include "vesica/relax/interrupt_controller.hpp"
 #include "vesica/relax/verdict.hpp"
+#include "vesica/run/run.hpp"
 #include "vesica/setup/case.hpp"
 
 namespace vesica {
 namespace {
 
-int run(const config::RunConfig& config, const Arguments& arguments) {
-  check_run(config, arguments.case_file, arguments.options.overwrites);
-  const setup::Case vesicle = arguments.resumed.empty()
-                                  ? setup::make_case(config)
-                                  : io::resumed_case(config, arguments.resumed);
-  for (const std::string& warning : vesicle.warnings) std::cerr << "warning: " << warning << '\n';
-  relax::InterruptController interrupt(catch_signals());
-  const relax::Verdict verdict =
-      run_case(config, vesicle, interrupt, arguments.options.is_quiet).verdict;
+int relax_case(const config::RunConfig& config, const Arguments& arguments) {
+  run::Options options = library_options(arguments.options, arguments.case_file);
+  options.resumed = arguments.resumed;
+  const setup::Case vesicle = run::prepare(config, options);
+  print_warnings(vesicle.warnings);
+  options.interrupt = &catch_signals();
+  const relax::Verdict verdict = run::run(config, vesicle, options).verdict;
   if (!arguments.options.is_quiet) {
     io::print_verdict(std::cout, verdict);
     io::print_files(std::cout, config);
@@ -37,11 +32,9 @@ int run(const config::RunConfig& config, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace vesica;
-  admit_signals();
-  return guarded("vesica-relax", [&] {
+  return run_program("vesica-relax", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     if (!command_line.arguments) return command_line.status;
-    const config::RunConfig config = read_config(*command_line.arguments);
-    return config::with_places(config, [&] { return run(config, *command_line.arguments); });
+    return relax_case(read_config(*command_line.arguments), *command_line.arguments);
   });
 }

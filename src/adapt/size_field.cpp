@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nodal_fields.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/mesh/quality.hpp"
 
 namespace vesica::adapt {
@@ -38,6 +39,7 @@ Eigen::VectorXd size_field(const mesh::Surface& surface, const fem::NodeGraph& g
                            const fem::NodalShapeOperator& shape_operator,
                            const PhaseInterface& phases, const SizeFieldOptions& options) {
   const mesh::NodeIndex num_nodes = surface.triangulation->num_nodes();
+  check("size_field", options);
   check_nodal_fields("size field", surface, shape_operator, phases);
   Eigen::VectorXd sizes(num_nodes);
   for (Eigen::Index node = 0; node < num_nodes; ++node) {

@@ -23,12 +23,10 @@ std::optional<double> relative_difference(const std::optional<double>& first,
   return relative_difference(*first, *second);
 }
 
-model::PerConstraint relative_difference(const model::PerConstraint& first,
+model::PerConstraint relative_difference(model::PerConstraint first,
                                          const model::PerConstraint& second) {
-  model::PerConstraint result;
-  for (std::size_t i = 0; i < result.values.size(); ++i)
-    result[i] = relative_difference(first[i], second[i]);
-  return result;
+  combine_fields(first, second, [](auto& a, const auto& b) { a = relative_difference(a, b); });
+  return first;
 }
 
 bool has_converged(const ComparedRun& run) {
@@ -106,7 +104,7 @@ void conclude(const ComparedRun& first, const ComparedRun& second,
     if (has_converged(*run)) continue;
     difference.conclusion = fmt::format(
         "whether {} and {} find the same equilibrium is open: {} has not converged ({})",
-        first.name, second.name, run->name, relax::status_name(run->verdict.outcome.status));
+        first.name, second.name, run->name, name_of(run->verdict.outcome.status));
     return;
   }
   const auto found = contradictions(difference, first.verdict, second.verdict, tolerances);

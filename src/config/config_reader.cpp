@@ -7,8 +7,9 @@
 #include "config/case_document.hpp"
 #include "config/nearest_name.hpp"
 #include "config/option_values.hpp"
-#include "config/unused_options.hpp"
+#include "core/refuse.hpp"
 #include "vesica/config/config.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::config {
@@ -28,7 +29,10 @@ class TableReader {
     const toml::node* node = table_.get(field.name);
     if (node == nullptr) return;
     const std::string key = fmt::format("{}.{}", name_, field.name);
-    assign(Entry{document_.place(key, node->source()), key, *node}, field.rule, target);
+    const Entry entry{document_.place(key, node->source()), key, *node};
+    assign(entry, target);
+    check_value(field.rule, target,
+                [&](const auto&, std::string_view rule) { entry.refuse(rule); });
   }
 
   void refuse_unknown_keys() const {
@@ -83,7 +87,7 @@ class ConfigReader {
     known_.emplace_back("title");
     const toml::node* node = document_.root().get("title");
     if (node != nullptr)
-      assign(Entry{document_.place("title", node->source()), "title", *node}, Rule::any, title);
+      assign(Entry{document_.place("title", node->source()), "title", *node}, title);
   }
 
   void refuse_unknown_tables() const {
@@ -125,7 +129,7 @@ void apply_accuracy(const CaseDocument& document, RunConfig& config) {
   const toml::node* node = find(document, "solver", accuracy_field.name);
   if (node == nullptr) return;
   const std::string key = "solver.accuracy";
-  assign(Entry{document.place(key, node->source()), key, *node}, Rule::any, config.accuracy);
+  assign(Entry{document.place(key, node->source()), key, *node}, config.accuracy);
   if (config.accuracy == Accuracy::draft) {
     config.solver.rtol = 1e-2;
     config.stop.normal_velocity = 1e-2;
@@ -141,35 +145,25 @@ void apply_method(const CaseDocument& document, RunConfig& config) {
   const toml::node* node = find(document, "solver", "method");
   if (node == nullptr) return;
   const std::string key = "solver.method";
-  assign(Entry{document.place(key, node->source()), key, *node}, Rule::any, config.solver.method);
+  assign(Entry{document.place(key, node->source()), key, *node}, config.solver.method);
   if (config.solver.method != solve::Method::semi_implicit) return;
   config.damping.kind = relax::DampingKind::paper;
   config.stop.steps_without_newton = 10;
 }
 
-/// Finds the first key whose schedule is not constant.
-struct FindMotion {
-  std::string_view key;
+bool moves(const model::Schedule& schedule) { return !schedule.is_constant(); }
+bool moves(const model::PhaseSchedules& pair) { return moves(pair.phase_1) || moves(pair.phase_2); }
+bool moves(const model::Target& target) { return target.begins_at_start || moves(target.schedule); }
+bool moves(const std::optional<double>&) { return false; }
 
-  void operator()(const Field& field, const model::Schedule& schedule) {
-    if (key.empty() && !schedule.is_constant()) key = field.name;
-  }
-  void operator()(const Field& field, const model::PhaseSchedules& pair) {
-    (*this)(field, pair.phase_1);
-    (*this)(field, pair.phase_2);
-  }
-  void operator()(const Field& field, const model::Target& target) {
-    if (key.empty() && target.begins_at_start) key = field.name;
-    (*this)(field, target.schedule);
-  }
-  void operator()(const Field&, const std::optional<double>&) {}
-};
-
+/// The first key whose schedule is not constant.
 template <class Options>
 std::string_view moving_key(const Options& options) {
-  FindMotion find_motion{};
-  Options::fields(options, find_motion);
-  return find_motion.key;
+  std::string_view key;
+  Options::fields(options, [&key](const Field& field, const auto& value) {
+    if (key.empty() && moves(value)) key = field.name;
+  });
+  return key;
 }
 
 void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
@@ -179,25 +173,12 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     const std::string path = fmt::format("{}.{}", table, key);
     Entry{document.place(path, node->source()), path, *node}.refuse(rule);
   };
-  const bool can_adapt =
-      config.solver.method == solve::Method::ida && config.solver.scheme == solve::Scheme::paper;
-  if (config.adaption.enabled && !can_adapt) {
-    refuse("adaption", "enabled",
-           fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
-                       "and \"{}\"",
-                       name_of(config.solver.method), name_of(config.solver.scheme)));
-  }
   if (config.solver.method == solve::Method::minimize) {
     constexpr std::string_view rule = "must be constant for solver.method = \"minimize\"";
     const auto material = moving_key(config.material);
     const auto target = moving_key(config.constraints);
     if (!material.empty()) refuse("material", material, rule);
     if (!target.empty()) refuse("constraints", target, rule);
-  }
-  for (const Field& field : unused_fields(config.adaption, config.adaption.method)) {
-    refuse("adaption", field.name,
-           fmt::format("means nothing with adaption.method = \"{}\"",
-                       name_of(config.adaption.method)));
   }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
 }
@@ -216,7 +197,26 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
   reader.refuse_unknown_tables();
   check_rules_between_options(document, config);
   config.places = places_of(document);
+  with_places(config, [&config] { check(config); });
   return config;
+}
+
+void check(const RunConfig& config) {
+  RunConfig::tables(config, []<class Options>(const Table& table, const Options& options) {
+    if constexpr (requires { options.has_value(); }) {
+      if (options) vesica::check(table.name, *options);
+    } else {
+      vesica::check(table.name, options);
+    }
+  });
+  const solve::SolverOptions& solver = config.solver;
+  if (config.adaption.enabled &&
+      (solver.method != solve::Method::ida || solver.scheme != solve::Scheme::paper)) {
+    refuse("adaption.enabled", true,
+           fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
+                       "and \"{}\"",
+                       name_of(solver.method), name_of(solver.scheme)));
+  }
 }
 
 std::string placed(const RunConfig& config, std::string_view message) {

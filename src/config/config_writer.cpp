@@ -5,6 +5,7 @@
 
 #include "config/option_values.hpp"
 #include "vesica/config/config.hpp"
+#include "vesica/core/check.hpp"
 
 namespace vesica::config {
 namespace {
@@ -48,7 +49,10 @@ class TemplateWriter {
  private:
   template <class T>
   void describe(const Field& field) {
-    out_ << "# " << field.meaning;
+    out_ << "# ";
+    if (!field.used_by.names().empty())
+      out_ << fmt::format("{}: ", fmt::join(field.used_by.names(), ", "));
+    out_ << field.meaning;
     if (field.unit != "-") out_ << fmt::format(" [{}]", field.unit);
     if (field.rule != Rule::any) out_ << "; " << rule_text(field.rule);
     if constexpr (std::is_enum_v<T>)

@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -12,26 +11,14 @@ namespace {
 double number(const Entry& entry, const toml::node& node, std::string_view expected) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value) entry.refuse(expected);
-  if (!std::isfinite(*value)) entry.refuse("must be finite");
   return *value;
 }
 
-/// The numbers of an array; `length` 0: any.
-std::vector<double> numbers(const Entry& entry, const toml::node& node, std::size_t length,
-                            std::string_view expected) {
+Eigen::Vector3d vector(const Entry& entry, const toml::node& node, std::string_view expected) {
   const toml::array* array = node.as_array();
-  if (array == nullptr || (length != 0 && array->size() != length)) entry.refuse(expected);
-  std::vector<double> values;
-  for (const toml::node& element : *array) values.push_back(number(entry, element, expected));
-  return values;
-}
-
-void check(const Entry& entry, Rule rule, double value) {
-  if (!satisfies(rule, value)) entry.refuse(rule_text(rule));
-}
-
-Eigen::Vector3d vector_of(const std::vector<double>& values) {
-  return {values[0], values[1], values[2]};
+  if (array == nullptr || array->size() != 3) entry.refuse(expected);
+  return {number(entry, *array->get(0), expected), number(entry, *array->get(1), expected),
+          number(entry, *array->get(2), expected)};
 }
 
 std::string escaped(const std::string& text) {
@@ -51,57 +38,43 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-void assign(const Entry& entry, Rule, bool& target) {
+void assign(const Entry& entry, bool& target) {
   if (!entry.node.is_boolean()) entry.refuse("must be true or false");
   target = entry.node.value<bool>().value();
 }
 
-void assign(const Entry& entry, Rule rule, int& target) {
+void assign(const Entry& entry, int& target) {
   if (!entry.node.is_integer()) entry.refuse("must be an integer");
   const std::int64_t value = entry.node.value<std::int64_t>().value();
   if (value > std::numeric_limits<int>::max() || value < std::numeric_limits<int>::min()) {
     entry.refuse("must fit into 32 bits");
   }
-  check(entry, rule, static_cast<double>(value));
   target = static_cast<int>(value);
 }
 
-void assign(const Entry& entry, Rule rule, double& target) {
-  if (!entry.node.is_number()) entry.refuse("must be a number");
-  const double value = entry.node.value<double>().value();
-  check(entry, rule, value);
-  if (std::isinf(value) && !std::isinf(target)) entry.refuse("must be finite");
-  target = value;
+void assign(const Entry& entry, double& target) {
+  target = number(entry, entry.node, "must be a number");
 }
 
-void assign(const Entry& entry, Rule, std::string& target) {
+void assign(const Entry& entry, std::string& target) {
   if (!entry.node.is_string()) entry.refuse("must be a string");
   target = entry.node.value<std::string>().value();
 }
 
-void assign(const Entry& entry, Rule rule, Eigen::Vector3d& target) {
-  const std::vector<double> values = numbers(entry, entry.node, 3, "must be an array of 3 numbers");
-  for (const double value : values) check(entry, rule, value);
-  target = vector_of(values);
+void assign(const Entry& entry, Eigen::Vector3d& target) {
+  target = vector(entry, entry.node, "must be an array of 3 numbers");
 }
 
-void assign(const Entry& entry, Rule rule, std::vector<double>& target) {
-  std::vector<double> values = numbers(entry, entry.node, 0, "must be an array of numbers");
-  for (const double value : values) check(entry, rule, value);
-  target = std::move(values);
-}
-
-void assign(const Entry& entry, Rule, std::vector<Eigen::Vector3d>& target) {
+void assign(const Entry& entry, std::vector<Eigen::Vector3d>& target) {
   constexpr std::string_view expected = "must be an array of arrays of 3 numbers";
   const toml::array* array = entry.node.as_array();
   if (array == nullptr) entry.refuse(expected);
   std::vector<Eigen::Vector3d> vectors;
-  for (const toml::node& element : *array)
-    vectors.push_back(vector_of(numbers(entry, element, 3, expected)));
+  for (const toml::node& element : *array) vectors.push_back(vector(entry, element, expected));
   target = std::move(vectors);
 }
 
-void assign(const Entry& entry, Rule rule, solve::TimeStep& target) {
+void assign(const Entry& entry, solve::TimeStep& target) {
   const std::string expected =
       fmt::format("must be a number or \"{}\"", solve::TimeStep::from_interface_width);
   if (entry.node.is_string()) {
@@ -110,9 +83,7 @@ void assign(const Entry& entry, Rule rule, solve::TimeStep& target) {
     target = {};
     return;
   }
-  const double value = number(entry, entry.node, expected);
-  check(entry, rule, value);
-  target.value = value;
+  target.value = number(entry, entry.node, expected);
 }
 
 std::size_t index_of_name(const Entry& entry, const std::vector<std::string>& names) {
@@ -141,12 +112,6 @@ std::string toml_text(const std::string& value) { return fmt::format("\"{}\"", e
 std::string toml_text(const Eigen::Vector3d& value) {
   return fmt::format("[{}, {}, {}]", toml_text(value.x()), toml_text(value.y()),
                      toml_text(value.z()));
-}
-
-std::string toml_text(const std::vector<double>& value) {
-  std::vector<std::string> texts;
-  for (const double number : value) texts.push_back(toml_text(number));
-  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::string toml_text(const std::vector<Eigen::Vector3d>& value) {

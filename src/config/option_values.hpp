@@ -15,32 +15,30 @@
 #include "vesica/model/material.hpp"
 #include "vesica/solve/time_step.hpp"
 
-/// How the types of options stand in a case file: `assign` reads, `toml_text` writes.
+/// How the types of options stand in a case file: `assign` reads, without regard to rules, and
+/// `toml_text` writes.
 namespace vesica::config {
 
-void assign(const Entry& entry, Rule rule, bool& target);
-void assign(const Entry& entry, Rule rule, int& target);
-/// inf is accepted only where it is the default.
-void assign(const Entry& entry, Rule rule, double& target);
-void assign(const Entry& entry, Rule rule, std::string& target);
-void assign(const Entry& entry, Rule rule, Eigen::Vector3d& target);
-void assign(const Entry& entry, Rule rule, std::vector<double>& target);
-void assign(const Entry& entry, Rule rule, std::vector<Eigen::Vector3d>& target);
+void assign(const Entry& entry, bool& target);
+void assign(const Entry& entry, int& target);
+void assign(const Entry& entry, double& target);
+void assign(const Entry& entry, std::string& target);
+void assign(const Entry& entry, Eigen::Vector3d& target);
+void assign(const Entry& entry, std::vector<Eigen::Vector3d>& target);
 /// A number, [from, to, t0, t1] or { times = [...], values = [...], kind = "linear" or "stages" }.
-void assign(const Entry& entry, Rule rule, model::Schedule& target);
+void assign(const Entry& entry, model::Schedule& target);
 /// An array of two schedules, or one for both phases.
-void assign(const Entry& entry, Rule rule, model::PhaseSchedules& target);
+void assign(const Entry& entry, model::PhaseSchedules& target);
 /// A schedule, whose first value may be "initial", or "initial" or "free".
-void assign(const Entry& entry, Rule rule, model::Target& target);
+void assign(const Entry& entry, model::Target& target);
 /// A number or "(eps/30)^2".
-void assign(const Entry& entry, Rule rule, solve::TimeStep& target);
+void assign(const Entry& entry, solve::TimeStep& target);
 
 [[nodiscard]] std::string toml_text(bool value);
 [[nodiscard]] std::string toml_text(int value);
 [[nodiscard]] std::string toml_text(double value);
 [[nodiscard]] std::string toml_text(const std::string& value);
 [[nodiscard]] std::string toml_text(const Eigen::Vector3d& value);
-[[nodiscard]] std::string toml_text(const std::vector<double>& value);
 [[nodiscard]] std::string toml_text(const std::vector<Eigen::Vector3d>& value);
 [[nodiscard]] std::string toml_text(const model::Schedule& value);
 [[nodiscard]] std::string toml_text(const model::PhaseSchedules& value);
@@ -60,7 +58,7 @@ template <class E>
 
 template <class E>
 requires std::is_enum_v<E>
-void assign(const Entry& entry, Rule, E& target) {
+void assign(const Entry& entry, E& target) {
   target = EnumNames<E>::names[index_of_name(entry, enum_names<E>())].first;
 }
 
@@ -69,9 +67,9 @@ requires std::is_enum_v<E>
 [[nodiscard]] std::string toml_text(E value) { return fmt::format("\"{}\"", name_of(value)); }
 
 template <class T>
-void assign(const Entry& entry, Rule rule, std::optional<T>& target) {
+void assign(const Entry& entry, std::optional<T>& target) {
   T value{};
-  assign(entry, rule, value);
+  assign(entry, value);
   target = std::move(value);
 }
 

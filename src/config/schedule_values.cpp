@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -32,28 +31,26 @@ struct Points {
 /// Reads the schedules of one entry.
 class ScheduleReader {
  public:
-  ScheduleReader(const Entry& entry, Rule rule, std::string_view expected)
-      : entry_(entry), rule_(rule), expected_(expected) {}
+  ScheduleReader(const Entry& entry, std::string_view expected)
+      : entry_(entry), expected_(expected) {}
 
   [[nodiscard]] model::Schedule constant_or_schedule(const toml::node& node) const {
-    if (node.is_number()) return number(node, rule_);
+    if (node.is_number()) return number(node);
     const Points read = points(node, false);
     return model::Schedule::points(read.kind, read.times, read.values);
   }
 
   [[nodiscard]] model::Target target(const toml::node& node) const {
-    if (node.is_number()) return {model::TargetKind::prescribed, number(node, rule_)};
+    if (node.is_number()) return {model::TargetKind::prescribed, number(node)};
     const Points read = points(node, true);
     return {model::TargetKind::prescribed,
             model::Schedule::points(read.kind, read.times, read.values), read.begins_at_start};
   }
 
  private:
-  [[nodiscard]] double number(const toml::node& node, Rule rule) const {
+  [[nodiscard]] double number(const toml::node& node) const {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value) entry_.refuse(expected_);
-    if (!satisfies(rule, *value)) entry_.refuse(rule_text(rule));
-    if (!std::isfinite(*value)) entry_.refuse("must be finite");
     return *value;
   }
 
@@ -63,12 +60,13 @@ class ScheduleReader {
       if (ramp->size() != ramp_size) entry_.refuse(expected_);
       add_value(*ramp->get(0), may_begin_at_start, result);
       add_value(*ramp->get(1), false, result);
-      result.times = {number(*ramp->get(2), Rule::any), number(*ramp->get(3), Rule::any)};
+      result.times = {number(*ramp->get(2)), number(*ramp->get(3))};
       if (!(result.times[0] < result.times[1])) entry_.refuse("must have t0 < t1");
-      return result;
+    } else if (const toml::table* table = node.as_table()) {
+      read_table(*table, may_begin_at_start, result);
+    } else {
+      entry_.refuse(expected_);
     }
-    if (!node.is_table()) entry_.refuse(expected_);
-    read_table(*node.as_table(), may_begin_at_start, result);
     const auto rule = model::Schedule::broken_rule(result.times, result.values);
     if (!rule.empty()) entry_.refuse(rule);
     return result;
@@ -78,13 +76,13 @@ class ScheduleReader {
     for (const auto& [key, node] : table) {
       const std::string word(key.str());
       if (word == "times") {
-        for (const toml::node& time : array(node)) result.times.push_back(number(time, Rule::any));
+        for (const toml::node& time : array(node)) result.times.push_back(number(time));
       } else if (word == "values") {
         for (const toml::node& value : array(node))
           add_value(value, may_begin_at_start && result.values.empty(), result);
       } else if (word == "kind") {
         const Entry kind{entry_.place, entry_.key + ".kind", node};
-        assign(kind, Rule::any, result.kind);
+        assign(kind, result.kind);
       } else {
         const std::vector<std::string> known{"times", "values", "kind"};
         entry_.refuse(fmt::format("unknown key \"{}\"{}", word, suggestion(word, known)));
@@ -103,11 +101,10 @@ class ScheduleReader {
       result.values.push_back(0);
       return;
     }
-    result.values.push_back(number(node, rule_));
+    result.values.push_back(number(node));
   }
 
   const Entry& entry_;
-  Rule rule_;
   std::string_view expected_;
 };
 
@@ -128,12 +125,12 @@ std::string schedule_text(const model::Schedule& schedule,
 
 }  // namespace
 
-void assign(const Entry& entry, Rule rule, model::Schedule& target) {
-  target = ScheduleReader(entry, rule, one_schedule).constant_or_schedule(entry.node);
+void assign(const Entry& entry, model::Schedule& target) {
+  target = ScheduleReader(entry, one_schedule).constant_or_schedule(entry.node);
 }
 
-void assign(const Entry& entry, Rule rule, model::PhaseSchedules& target) {
-  const ScheduleReader reader(entry, rule, two_schedules);
+void assign(const Entry& entry, model::PhaseSchedules& target) {
+  const ScheduleReader reader(entry, two_schedules);
   const toml::array* pair = entry.node.as_array();
   if (pair != nullptr && pair->size() == 2) {
     target = {reader.constant_or_schedule(*pair->get(0)),
@@ -144,13 +141,13 @@ void assign(const Entry& entry, Rule rule, model::PhaseSchedules& target) {
   }
 }
 
-void assign(const Entry& entry, Rule rule, model::Target& target) {
+void assign(const Entry& entry, model::Target& target) {
   if (entry.node.is_string()) {
     const std::string word = entry.node.value<std::string>().value();
     if (word != "initial" && word != "free") entry.refuse(a_target);
     target = {word == "free" ? model::TargetKind::free : model::TargetKind::initial};
   } else {
-    target = ScheduleReader(entry, rule, a_target).target(entry.node);
+    target = ScheduleReader(entry, a_target).target(entry.node);
   }
 }
 

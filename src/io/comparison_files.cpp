@@ -9,9 +9,11 @@
 #include <ostream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
+#include "vesica/io/run_reader.hpp"
 #include "vesica/measure/profile.hpp"
 
 namespace vesica::io {
@@ -93,7 +95,29 @@ std::optional<std::string> run_gnuplot(const fs::path& folder) {
   return "gnuplot failed";
 }
 
+compare::ComparedRun named(std::string name, const std::filesystem::path& folder, FinishedRun run) {
+  return {std::move(name),        folder,
+          std::move(run.model),   std::move(run.state),
+          std::move(run.verdict), std::move(run.history)};
+}
+
 }  // namespace
+
+std::vector<compare::ComparedRun> read_runs(const std::filesystem::path& first,
+                                            const std::filesystem::path& second) {
+  FinishedRun a = read_run(first);
+  FinishedRun b = read_run(second);
+  const auto is_minimizer = [](const FinishedRun& run) { return run.verdict.method == "minimize"; };
+  const bool are_of_two_kinds = is_minimizer(a) != is_minimizer(b);
+  const bool is_a_minimizer = is_minimizer(a);
+  const auto name = [&](bool is_minimizer_run, const char* otherwise) {
+    return are_of_two_kinds ? (is_minimizer_run ? "minimize" : "flow") : otherwise;
+  };
+  std::vector<compare::ComparedRun> runs;
+  runs.push_back(named(name(is_a_minimizer, "first"), first, std::move(a)));
+  runs.push_back(named(name(!is_a_minimizer, "second"), second, std::move(b)));
+  return runs;
+}
 
 void check_comparison_folder(const fs::path& folder, bool overwrite) {
   std::error_code ignored;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
 namespace vesica::io {
@@ -28,11 +27,11 @@ std::string progress_line(const relax::StepView& view) {
                        measured.energy.total(), *view.report.gradient,
                        largest_error(measured.constraint_errors), measured.quality);
   }
-  const double radius = std::sqrt(measured.measures.area() / (4 * std::numbers::pi));
   return fmt::format(
       "step {}  t {:.4g}  dt {:.1e}  order {}  F {:.6f}  v {:.1e}  C {:.1e}  q {:.3f}",
       view.report.counts.steps, view.state.time, view.report.step_size, view.report.order,
-      measured.energy.total(), measured.velocity.normal_rigid_free / radius,
+      measured.energy.total(),
+      measured.velocity.normal_rigid_free / measured.characteristic_radius(),
       largest_error(measured.constraint_errors), measured.quality);
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "io/hdf5_reader.hpp"
-#include "io/json_reader.hpp"
+#include "io/hdf5/readable_file.hpp"
+#include "io/result_json.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 
@@ -123,145 +123,11 @@ setup::Origin origin_of(const hdf5::ReadableFile& file) {
   setup::Origin origin;
   model::Measures::fields(origin.measures, [&](const Field& field, auto& value) {
     value = file.find_attribute(group, std::string(field.name));
+    if (!value && field.name != model::PhaseDifference::key)
+      file.refuse(fmt::format("{}@{}", group, field.name), "is missing");
   });
-  for (const std::string_view needed : {model::Volume::key, model::Area::key})
-    (void)file.number_attribute(group, std::string(needed));
   origin.is_sphere = file.number_attribute(group, "is_sphere") != 0;
   return origin;
-}
-
-model::PerConstraint per_constraint(const JsonReader& json, const std::string& object) {
-  model::PerConstraint result;
-  model::PerConstraint::fields(result, [&](const Field& field, auto& value) {
-    value = json.optional_number(fmt::format("{}/{}", object, field.name));
-  });
-  return result;
-}
-
-measure::ShapeNumbers shape_of(const JsonReader& json) {
-  measure::ShapeNumbers shape;
-  shape.characteristic_radius = json.number("/shape/characteristic_radius");
-  shape.reduced_volume = json.number("/shape/reduced_volume");
-  shape.phase_fraction = json.optional_number("/shape/phase_fraction");
-  shape.reduced_line_tension = json.optional_number("/shape/reduced_line_tension");
-  shape.rigidity_ratio = json.optional_number("/shape/rigidity_ratio");
-  shape.saddle_splay_difference = json.optional_number("/shape/saddle_splay_difference");
-  shape.neck_radius = json.optional_number("/shape/neck_radius");
-  shape.length = json.optional_number("/shape/length");
-  shape.domains_1 = json.optional_count("/domains/phase_1");
-  shape.domains_2 = json.optional_count("/domains/phase_2");
-  return shape;
-}
-
-/// Areas and boundary lengths; their centroids stand in the trajectory.
-std::vector<measure::PhaseDomain> domains_of(const JsonReader& json) {
-  std::vector<measure::PhaseDomain> domains;
-  for (const int phase : {1, 2}) {
-    const std::string areas = fmt::format("/domains/areas/phase_{}", phase);
-    const std::string lengths = fmt::format("/domains/boundary_lengths/phase_{}", phase);
-    for (std::size_t i = 0; i < json.size(areas); ++i) {
-      domains.push_back({phase, json.number(fmt::format("{}/{}", areas, i)),
-                         json.number(fmt::format("{}/{}", lengths, i))});
-    }
-  }
-  return domains;
-}
-
-measure::Diagnostics diagnostics_of(const JsonReader& json) {
-  measure::Diagnostics measured;
-  model::EnergyParts::fields(measured.energy, [&](const Field& field, auto& value) {
-    value = json.optional_number(fmt::format("/energy/{}", field.name));
-  });
-  model::Measures::fields(measured.measures, [&](const Field& field, auto& value) {
-    value = json.optional_number(fmt::format("/shape/{}", field.name));
-  });
-  measured.constraint_errors = per_constraint(json, "/constraints");
-  const double radius = json.number("/shape/characteristic_radius");
-  measured.velocity = {radius * json.number("/normal_velocity_plain"),
-                       radius * json.number("/normal_velocity"),
-                       radius * json.number("/tangential_velocity")};
-  measured.quality = json.number("/mesh/quality");
-  measured.domains = domains_of(json);
-  return measured;
-}
-
-std::vector<relax::Event> events_of(const JsonReader& json) {
-  std::vector<relax::Event> events(json.size("/events"));
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    const std::string event = fmt::format("/events/{}", i);
-    events[i] = {json.count(event + "/step"), json.number(event + "/time"),
-                 json.text(event + "/what")};
-  }
-  return events;
-}
-
-std::optional<solve::PolishReport> polish_of(const JsonReader& json) {
-  const auto iterations = json.optional_count("/polish/iterations");
-  if (!iterations) return std::nullopt;
-  solve::PolishReport polish;
-  polish.is_converged = true;  // a run whose polish fails does not end as converged
-  polish.iterations = *iterations;
-  polish.gradient = json.optional_number("/polish/gradient").value_or(0);
-  polish.curvature.value = json.optional_number("/polish/lowest_curvature").value_or(0);
-  return polish;
-}
-
-solve::StepReport report_of(const JsonReader& json) {
-  solve::StepReport report;
-  report.gradient = json.optional_number("/gradient");
-  report.polish = polish_of(json);
-  report.time = json.number("/time");
-  solve::SolverCounts& counts = report.counts;
-  counts.steps = json.count("/counts/steps");
-  counts.newton = json.count("/counts/newton");
-  counts.krylov = json.count("/counts/krylov");
-  counts.residuals = json.count("/counts/residuals");
-  counts.jacobians = json.count("/counts/jacobians");
-  counts.factorisations = json.count("/counts/factorisations");
-  counts.failures = json.count("/counts/failures");
-  solve::SolverSeconds& seconds = report.seconds;
-  seconds.total = json.number("/seconds/total");
-  seconds.processor = json.number("/seconds/processor");
-  seconds.residual = json.number("/seconds/residual");
-  seconds.jacobian = json.number("/seconds/jacobian");
-  seconds.factorisation = json.number("/seconds/factorisation");
-  seconds.solve = json.number("/seconds/solve");
-  return report;
-}
-
-relax::RunStatus status_named(const std::string& name, const fs::path& file) {
-  using relax::RunStatus;
-  for (const RunStatus status :
-       {RunStatus::converged, RunStatus::time_limit, RunStatus::step_limit, RunStatus::stopped,
-        RunStatus::neck_closes, RunStatus::budding, RunStatus::self_intersection,
-        RunStatus::interrupted, RunStatus::numerical_failure}) {
-    if (relax::status_name(status) == name) return status;
-  }
-  throw IoError(fmt::format("{}: /status \"{}\" is not known", file.string(), name));
-}
-
-relax::Verdict read_verdict(const fs::path& file) {
-  const JsonReader json(file);
-  relax::Verdict verdict;
-  verdict.outcome.status = status_named(json.text("/status"), file);
-  verdict.outcome.reason = json.text("/reason");
-  verdict.outcome.diagnostics = diagnostics_of(json);
-  verdict.outcome.report = report_of(json);
-  verdict.outcome.initial_quality = json.number("/mesh/quality_initial");
-  verdict.outcome.smallest_quality = json.number("/mesh/quality_smallest");
-  verdict.area_ratio = json.number("/mesh/area_ratio");
-  verdict.smallest_normal_cosine = json.number("/mesh/smallest_normal_cosine");
-  // How many there were; when and why stands in the trajectory.
-  verdict.outcome.mesh_changes.resize(static_cast<std::size_t>(json.count("/mesh/remeshings")));
-  verdict.outcome.events = events_of(json);
-  verdict.method = json.text("/method");
-  verdict.scheme = json.text("/scheme");
-  verdict.time = json.number("/time");
-  verdict.multipliers = per_constraint(json, "/multipliers");
-  verdict.shape = shape_of(json);
-  verdict.num_nodes = static_cast<std::int32_t>(json.count("/mesh/nodes"));
-  verdict.num_triangles = static_cast<std::int32_t>(json.count("/mesh/triangles"));
-  return verdict;
 }
 
 compare::EnergyHistory history_of(const hdf5::ReadableFile& file) {

@@ -1,10 +1,10 @@
 #include "io/trajectory_file.hpp"
 
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 #include "config/option_values.hpp"
-#include "io/time_series.hpp"
 #include "vesica/core/version.hpp"
 #include "vesica/flow/library_versions.hpp"
 #include "vesica/linalg/library_versions.hpp"
@@ -32,15 +32,16 @@ std::span<const double> values_of(const mesh::Positions& positions) {
   return {positions.data(), static_cast<std::size_t>(positions.size())};
 }
 
-/// One attribute for every option: numbers and flags as such, everything else as in a case file.
+/// One attribute for every option or result: numbers and flags as such, everything else as in a
+/// case file.
 class AttributeWriter {
  public:
-  AttributeWriter(hdf5::WritableFile& file, std::string group)
-      : file_(file), group_(std::move(group)) {}
+  AttributeWriter(hdf5::WritableFile& file, std::string group, std::string prefix = "")
+      : file_(file), group_(std::move(group)), prefix_(std::move(prefix)) {}
 
   template <class T>
   void operator()(const Field& field, const T& value) {
-    const std::string name(field.name);
+    const std::string name = fmt::format("{}{}", prefix_, field.name);
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::string>) {
       file_.set_attribute(group_, name, value);
     } else if constexpr (std::is_integral_v<T>) {
@@ -59,6 +60,7 @@ class AttributeWriter {
  private:
   hdf5::WritableFile& file_;
   std::string group_;
+  std::string prefix_;
 };
 
 }  // namespace
@@ -95,9 +97,7 @@ void TrajectoryFile::write_configuration(const config::RunConfig& config) {
 void TrajectoryFile::write_origin(const setup::Origin& origin) {
   const std::string group = "/origin";
   file_.make_group(group);
-  model::Measures::fields(origin.measures, [&](const Field& field, const auto& value) {
-    if (value) file_.set_attribute(group, std::string(field.name), *value);
-  });
+  model::Measures::fields(origin.measures, AttributeWriter(file_, group));
   file_.set_attribute(group, "is_sphere", static_cast<std::int64_t>(origin.is_sphere));
 }
 
@@ -121,9 +121,7 @@ void TrajectoryFile::write_mesh(std::shared_ptr<const mesh::Triangulation> trian
   file_.make_group(mesh);
   file_.write(mesh + "/triangles", std::span(triangles.front().data(), 6 * triangles.size()), 6);
   if (next_change_) {
-    file_.set_attribute(mesh, "step", static_cast<std::int64_t>(next_change_->step));
-    file_.set_attribute(mesh, "time", next_change_->time);
-    file_.set_attribute(mesh, "reason", next_change_->reason);
+    relax::MeshChange::fields(*next_change_, AttributeWriter(file_, mesh));
     next_change_.reset();
   }
   meshes_.push_back(mesh);
@@ -142,10 +140,8 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
   file_.set_attribute(group, "mesh", meshes_.back());
   file_.set_attribute(group, "damping", state.damping);
-  model::PerConstraint::fields(
-      state.values.multipliers, [&](const Field& field, const auto& value) {
-        if (value) file_.set_attribute(group, fmt::format("multiplier_{}", field.name), *value);
-      });
+  model::PerConstraint::fields(state.values.multipliers,
+                               AttributeWriter(file_, group, "multiplier_"));
   file_.link(group + "/mesh", meshes_.back());
   file_.write(group + "/positions", values_of(state.values.positions), 3);
   file_.write(group + "/velocity", values_of(state.rates.positions), 3);
@@ -162,26 +158,26 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
 
 /// Rows of the domains' table for the frame that is being added.
 void TrajectoryFile::write_domains(const measure::Diagnostics& diagnostics) {
-  using measure::PhaseDomain;
-  const auto column = [&](const char* name, const auto& value) {
-    std::vector<double> values;
-    for (const PhaseDomain& domain : diagnostics.domains) values.push_back(value(domain));
-    if (!values.empty()) file_.append(fmt::format("/domains/{}", name), values);
-  };
-  const auto frame = static_cast<double>(frames_.size());
-  column("frame", [&](const PhaseDomain&) { return frame; });
-  column("phase", [](const PhaseDomain& domain) { return domain.phase; });
-  column("area", [](const PhaseDomain& domain) { return domain.area; });
-  column("boundary_length", [](const PhaseDomain& domain) { return domain.boundary_length; });
-  column("centroid_x", [](const PhaseDomain& domain) { return domain.centroid.x(); });
-  column("centroid_y", [](const PhaseDomain& domain) { return domain.centroid.y(); });
-  column("centroid_z", [](const PhaseDomain& domain) { return domain.centroid.z(); });
+  std::map<std::string, std::vector<double>> columns;
+  for (const measure::PhaseDomain& domain : diagnostics.domains) {
+    columns["frame"].push_back(static_cast<double>(frames_.size()));
+    measure::PhaseDomain::fields(domain, [&]<class T>(const Field& field, const T& value) {
+      const std::string name(field.name);
+      if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
+        for (int axis = 0; axis < 3; ++axis)
+          columns[fmt::format("{}_{}", name, "xyz"[axis])].push_back(value[axis]);
+      } else {
+        columns[name].push_back(value);
+      }
+    });
+  }
+  for (const auto& [name, values] : columns) file_.append("/domains/" + name, values);
 }
 
 void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome) {
   const std::string group = "/outcome";
   file_.make_group(group);
-  file_.set_attribute(group, "status", std::string(relax::status_name(outcome.status)));
+  file_.set_attribute(group, "status", std::string(name_of(outcome.status)));
   file_.set_attribute(group, "reason", outcome.reason);
   file_.set_attribute(group, "exit_status", static_cast<std::int64_t>(exit_status(outcome)));
   file_.set_attribute(group, "time", view.state.time);
@@ -196,19 +192,16 @@ void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outco
 }
 
 void TrajectoryFile::flush() {
-  const std::vector<std::string_view> names = series_names();
-  for (std::size_t column = 0; column < names.size() && !rows_.empty(); ++column) {
+  for (std::size_t column = 0; !rows_.empty() && column < rows_.front().size(); ++column) {
     std::vector<double> values;
-    for (const std::vector<double>& row : rows_) values.push_back(row[column]);
-    file_.append(fmt::format("/series/{}", names[column]), values);
+    for (const std::vector<Number>& row : rows_) values.push_back(row[column].value);
+    file_.append("/series/" + rows_.front()[column].path, values);
   }
   rows_.clear();
   for (const relax::Event& event : events_) {
     const std::string group = numbered("events", num_written_events_++);
     file_.make_group(group);
-    file_.set_attribute(group, "step", static_cast<std::int64_t>(event.step));
-    file_.set_attribute(group, "time", event.time);
-    file_.set_attribute(group, "what", event.what);
+    relax::Event::fields(event, AttributeWriter(file_, group));
   }
   events_.clear();
   file_.flush();

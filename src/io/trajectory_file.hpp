@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5.hpp"
+#include "io/hdf5/writable_file.hpp"
+#include "io/time_series.hpp"
 #include "io/xdmf.hpp"
 #include "vesica/config/config.hpp"
 #include "vesica/model/model.hpp"
@@ -44,7 +45,7 @@ class TrajectoryFile {
 
   hdf5::WritableFile file_;
   model::Model model_;
-  std::vector<std::vector<double>> rows_;
+  std::vector<std::vector<Number>> rows_;
   std::vector<relax::Event> events_;
   std::size_t num_written_events_ = 0;
   std::vector<XdmfFrame> frames_;

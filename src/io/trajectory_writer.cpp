@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <system_error>
 #include <utility>
 
 #include "io/trajectory_file.hpp"
-#include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
-#include "vesica/measure/diagnostics.hpp"
+#include "vesica/core/error.hpp"
 
 namespace vesica::io {
 namespace {
@@ -125,24 +123,6 @@ void TrajectoryWriter::finish(const relax::StepView& view, const relax::Outcome&
   if (!writer_) return;
   const std::unique_ptr<Writer> last = std::move(writer_);
   last->finish(view, outcome);
-}
-
-relax::Outcome record_failed_start(const config::RunConfig& config, const setup::Case& vesicle,
-                                   std::string reason) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  relax::Outcome outcome;
-  outcome.status = relax::RunStatus::numerical_failure;
-  outcome.reason = std::move(reason);
-  outcome.diagnostics = measure::measure(vesicle.model, vesicle.start);
-  outcome.diagnostics.energy = {unknown, unknown, std::nullopt};
-  outcome.diagnostics.velocity = {unknown, unknown, unknown};
-  outcome.report.status = solve::StepStatus::failed;
-  outcome.initial_quality = outcome.diagnostics.quality;
-  outcome.smallest_quality = outcome.diagnostics.quality;
-  create_run_folder(config.output.directory);
-  TrajectoryWriter trajectory(config.output.directory, config, vesicle);
-  trajectory.finish({vesicle.start, outcome.report, outcome.diagnostics}, outcome);
-  return outcome;
 }
 
 }  // namespace vesica::io

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "metis_signals.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::linalg {
@@ -42,6 +43,7 @@ std::vector<SparseIndex> node_ordering(const SparseMatrix& matrix, int block_siz
   auto count = static_cast<idx_t>(graph.starts.size() - 1);
   std::vector<idx_t> permutation(graph.starts.size());
   std::vector<idx_t> inverse(graph.starts.size());
+  const SignalsHeldFromMetis held;
   if (METIS_NodeND(&count, graph.starts.data(), graph.neighbours.data(), nullptr, nullptr,
                    permutation.data(), inverse.data()) != METIS_OK) {
     throw SolverError("METIS_NodeND: cannot order the nodes");

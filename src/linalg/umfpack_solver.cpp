@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blas_threads.hpp"
+#include "metis_signals.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/handle.hpp"
 
@@ -56,6 +57,7 @@ class UmfpackSolver final : public DirectSolver {
     control_[UMFPACK_IRSTEP] = 0;
     control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
     void* symbolic = nullptr;
+    const SignalsHeldFromMetis held;
     const auto code =
         umfpack_dl_symbolic(matrix.size, matrix.size, starts_.data(), rows_.data(),
                             matrix.values.data(), &symbolic, control_.data(), nullptr);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "problem/point_equations.hpp"
@@ -129,6 +130,15 @@ VelocityNorms velocity_norms(const problem::State& state) {
 }
 
 }  // namespace
+
+double VelocityNorms::drift() const {
+  const double squared = normal * normal - normal_rigid_free * normal_rigid_free;
+  return squared < 0 ? 0 : std::sqrt(squared);
+}
+
+double Diagnostics::characteristic_radius() const {
+  return std::sqrt(measures.area() / (4 * std::numbers::pi));
+}
 
 Diagnostics measure(const model::Model& model, const problem::State& state) {
   Diagnostics result;

@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "vesica/core/error.hpp"
+#include "core/refuse.hpp"
+#include "vesica/core/check.hpp"
 
 namespace vesica::model {
 namespace {
@@ -37,15 +38,14 @@ std::string text_of(const Target& target, const Schedule& resolved) {
 /// Throws the ConfigError of `constraints.<key>`.
 template <class T>
 [[noreturn]] void refuse(std::string_view key, const T& value, std::string_view rule) {
-  throw ConfigError(fmt::format("constraints.{} = {}: {}", key, value, rule));
+  vesica::refuse(fmt::format("constraints.{}", key), value, rule);
 }
 
-bool is_given(const Target& target) { return !(target == Target{}); }
-
-void check_finite(std::string_view key, const Schedule& schedule) {
-  for (const double value : schedule.values()) {
-    if (!std::isfinite(value)) refuse(key, model::text_of(schedule), "must be finite");
-  }
+void check_given_once(const Target& target, std::string_view key, std::string_view reduced_key,
+                      std::optional<double> reduced) {
+  if (reduced && target != Target{})
+    refuse(reduced_key, *reduced,
+           fmt::format("constraints.{} is given too; give one of them", key));
 }
 
 void check_positive(std::string_view key, const Target& target, const Schedule& schedule) {
@@ -55,32 +55,20 @@ void check_positive(std::string_view key, const Target& target, const Schedule& 
 }
 
 /// The target before bounds are looked at; absent when it is free or `start` does not have it.
-std::optional<Schedule> resolve(std::string_view key, const Target& target,
-                                std::optional<double> start) {
+std::optional<Schedule> resolve(const Target& target, std::optional<double> start) {
   if (target.kind == TargetKind::free) return std::nullopt;
   const bool needs_start = target.kind == TargetKind::initial || target.begins_at_start;
   if (needs_start && !start) return std::nullopt;
   if (target.kind == TargetKind::initial) return Schedule(*start);
-  check_finite(key, target.schedule);
   if (!target.begins_at_start) return target.schedule;
   std::vector<double> values(target.schedule.values().begin(), target.schedule.values().end());
   values.front() = *start;
   return target.schedule.with_values(std::move(values));
 }
 
-/// Refuses a reduced number beside its dimensional one, out of range, or without an area.
-void check_reduced(const Field& field, double value, std::string_view partner, bool partner_given,
-                   const std::optional<Schedule>& area) {
-  if (!std::isfinite(value) || !satisfies(field.rule, value)) {
-    refuse(field.name, value, rule_text(field.rule));
-  }
-  if (partner_given) {
-    refuse(field.name, value,
-           fmt::format("constraints.{} is given too; give one of them", partner));
-  }
-  if (!area) {
-    refuse(field.name, value, "needs an area to refer to, but constraints.area is free");
-  }
+/// A reduced number needs an area to refer to.
+void check_has_area(std::string_view key, double value, const std::optional<Schedule>& area) {
+  if (!area) refuse(key, value, "needs an area to refer to, but constraints.area is free");
 }
 
 /// The pieces in which both schedules are linear, as times (begin, end]; the ends of time are left
@@ -130,11 +118,9 @@ double largest_reduced_volume(const Schedule& volume, const Schedule& area) {
 /// The target of the volume that a reduced volume stands for.
 Schedule volume_of(const ConstraintOptions& options, const std::optional<Schedule>& area) {
   const double reduced = *options.reduced_volume;
-  check_reduced({"reduced_volume", "-", "", Rule::positive}, reduced, Volume::key,
-                is_given(options.targets.of<Volume>()), area);
-  if (reduced > 1 + tolerance) {
+  check_has_area("reduced_volume", reduced, area);
+  if (reduced > 1 + tolerance)
     refuse("reduced_volume", reduced, "must be <= 1: no surface of this area encloses more");
-  }
   std::vector<double> volumes;
   for (const double value : area->values())
     volumes.push_back(reduced * ball_volume(characteristic_radius(value)));
@@ -191,22 +177,26 @@ void check_phase_difference(const Target& target, const Schedule& phase, const S
 Schedule phase_difference_of(const ConstraintOptions& options,
                              const std::optional<Schedule>& area) {
   const double fraction = *options.phase_fraction;
-  check_reduced({"phase_fraction", "-", "", Rule::fraction}, fraction, PhaseDifference::key,
-                is_given(options.targets.of<PhaseDifference>()), area);
-  if (fraction == 0 || fraction == 1) {
+  check_has_area("phase_fraction", fraction, area);
+  if (fraction == 0 || fraction == 1)
     refuse("phase_fraction", fraction, "must lie between 0 and 1: one phase would be empty");
-  }
   return area->scaled(1 - 2 * fraction);
 }
 
 }  // namespace
 
+void ConstraintOptions::check_together() const {
+  check_given_once(targets.of<Volume>(), Volume::key, "reduced_volume", reduced_volume);
+  check_given_once(targets.of<PhaseDifference>(), PhaseDifference::key, "phase_fraction",
+                   phase_fraction);
+}
+
 Targets make_targets(const ConstraintOptions& options, const Measures& start, bool is_two_phase) {
+  check("constraints", options);
   Targets targets;
   for_each_term<Constraints>([&]<class Constraint>() {
     if (Constraint::needs_phase_field && !is_two_phase) return;
-    targets.of<Constraint>() =
-        resolve(Constraint::key, options.targets.of<Constraint>(), start.of<Constraint>());
+    targets.of<Constraint>() = resolve(options.targets.of<Constraint>(), start.of<Constraint>());
   });
   const auto& area = targets.of<Area>();
   auto& volume = targets.of<Volume>();

@@ -214,9 +214,8 @@ inline void add_semi_implicit_element(const SemiImplicitContext& context,
     const auto& shape = point.shape;
     const auto in = problem::point_inputs(element, shape);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
-    auto surface =
+    const auto surface =
         problem::surface_point(in, frame, problem::interpolated_shape_operator(element, shape));
-    surface.position = problem::head(problem::combine_rows(element.value, shape.value));
     const auto weights = pair_weights(context, in, frame);
     add_pair_integrals(weights, frame, point, pairs);
     std::array<Integrand, side::count> sides{};

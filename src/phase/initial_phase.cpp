@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <type_traits>
 #include <vector>
 
+#include "core/refuse.hpp"
 #include "phase_file.hpp"
 #include "phase_levels.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/fem/surface_integral.hpp"
 #include "vesica/model/two_phase.hpp"
@@ -15,16 +16,6 @@
 
 namespace vesica::phase {
 namespace {
-
-void check_options(const PhaseOptions& options) {
-  PhaseOptions::fields(options, [](const Field& field, const auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int>) {
-      if (std::isfinite(static_cast<double>(value)) && satisfies(field.rule, value)) return;
-      throw ConfigError(fmt::format("phase.{} = {}: {}", field.name, value, rule_text(field.rule)));
-    }
-  });
-}
 
 Eigen::VectorXd shifted(const PhaseLevels& levels, double shift) {
   const Eigen::ArrayXd level = levels.values.array() + shift;
@@ -99,10 +90,9 @@ Eigen::VectorXd match(const PhaseLevels& levels, const mesh::Surface& surface, d
 
 Eigen::VectorXd initial_phase(const PhaseOptions& options, const mesh::Surface& surface,
                               double interface_width, std::optional<double> target) {
-  check_options(options);
-  if (!(interface_width > 0) || !std::isfinite(interface_width)) {
-    throw ConfigError(fmt::format("material.interface_width = {}: must be > 0", interface_width));
-  }
+  check("phase", options);
+  if (!(interface_width > 0) || !std::isfinite(interface_width))
+    refuse("material.interface_width", interface_width, "must be > 0");
   const bool is_matched = target && options.match_target;
   if (options.kind == PhaseKind::file) {
     auto values = read_phase_file(options.path, surface.positions.rows());

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "vesica/core/error.hpp"
+#include "core/refuse.hpp"
 #include "vesica/fem/surface_integral.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -40,8 +40,7 @@ Eigen::VectorXd coordinate(const PhaseOptions& options, const mesh::Surface& sur
 
 PhaseLevels ramp_levels(const PhaseOptions& options, const mesh::Surface& surface) {
   if (options.from == options.to) {
-    throw ConfigError(
-        fmt::format("phase.to = {}: must differ from phase.from = {}", options.to, options.from));
+    refuse("phase.to", options.to, fmt::format("must differ from phase.from = {}", options.from));
   }
   const Eigen::ArrayXd x = coordinate(options, surface).array();
   return {(2 * x - options.from - options.to) / (options.to - options.from), PhaseProfile::clip};
@@ -100,19 +99,15 @@ PhaseLevels bands_around(const PhaseOptions& options, const mesh::Surface& surfa
 }
 
 void check_spots(const PhaseOptions& options) {
-  if (options.directions.empty()) {
-    throw ConfigError("phase.directions = []: must name at least one direction");
-  }
+  if (options.directions.empty())
+    refuse("phase.directions", "[]", "must name at least one direction");
   for (std::size_t k = 0; k < options.directions.size(); ++k) {
     const auto& d = options.directions[k];
-    if (d.allFinite() && d.squaredNorm() > 0) continue;
-    throw ConfigError(
-        fmt::format("phase.directions[{}] = [{}, {}, {}]: must be finite and not zero", k, d.x(),
-                    d.y(), d.z()));
+    if (d.squaredNorm() > 0) continue;
+    refuse(fmt::format("phase.directions[{}]", k), fmt::format("[{}, {}, {}]", d.x(), d.y(), d.z()),
+           "must be finite and not zero");
   }
-  if (options.angle >= 180) {
-    throw ConfigError(fmt::format("phase.angle = {}: must be < 180", options.angle));
-  }
+  if (options.angle >= 180) refuse("phase.angle", options.angle, "must be < 180");
 }
 
 /// Distances on the sphere around the centroid through the point: radius times angle.
@@ -133,9 +128,7 @@ PhaseLevels spot_levels(const PhaseOptions& options, const mesh::Surface& surfac
 }
 
 PhaseLevels uniform_levels(const PhaseOptions& options, Eigen::Index num_nodes) {
-  if (std::abs(options.mean) > 1) {
-    throw ConfigError(fmt::format("phase.mean = {}: must be between -1 and 1", options.mean));
-  }
+  if (std::abs(options.mean) > 1) refuse("phase.mean", options.mean, "must be between -1 and 1");
   return {Eigen::VectorXd::Constant(num_nodes, options.mean), PhaseProfile::clip};
 }
 

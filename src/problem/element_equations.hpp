@@ -75,6 +75,7 @@ inline PointInputs<double> point_inputs(const ElementValues& element,
   const auto dv = combine_rows(element.value, shape.dv);
   const auto rate = combine_rows(element.rate, shape.value);
   PointInputs<double> in;
+  in.x = head(value);
   in.x_u = head(du);
   in.x_v = head(dv);
   in.x_uu = head(combine_rows(element.value, second.duu));
@@ -117,6 +118,7 @@ using PointDual = Dual<24>;
 inline PointInputs<PointDual> dual_inputs(const PointInputs<double>& in) {
   DualInputs<PointDual> inputs;
   PointInputs<PointDual> out;
+  out.x = {in.x.x, in.x.y, in.x.z};
   out.x_u = inputs.vector(in.x_u);
   out.x_v = inputs.vector(in.x_v);
   out.x_uu = inputs.vector(in.x_uu);

@@ -10,6 +10,7 @@ namespace vesica::problem {
 /// Fields and derivatives along the reference coordinates (u, v) at a quadrature point.
 template <class T>
 struct PointInputs {
+  Vec3<T> x;  ///< not differentiated: the Jacobian leaves out what depends on the place itself
   Vec3<T> x_u, x_v;
   Vec3<T> x_uu, x_uv, x_vv;
   T kappa{}, kappa_u{}, kappa_v{};
@@ -43,6 +44,7 @@ template <class T>
 model::SurfacePoint<T> surface_point(const PointInputs<T>& in, const fem::TangentFrame<T>& frame,
                                      const Sym3<T>& shape_operator) {
   model::SurfacePoint<T> point;
+  point.position = in.x;
   point.normal = frame.normal;
   point.mean_curvature = in.kappa;
   point.mean_curvature_gradient = fem::surface_gradient(frame, in.kappa_u, in.kappa_v);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "vesica/core/check.hpp"
 #include "vesica/paper/conformal_map.hpp"
 #include "vesica/relax/remesh.hpp"
 
@@ -19,7 +20,7 @@ constexpr int max_changes_at_rest = 10;
 
 BisectionController::BisectionController(const AdaptionOptions& options, model::Model model,
                                          const problem::Scales& scales)
-    : options_(options), model_(std::move(model)), scales_(scales) {}
+    : options_(checked("adaption", options)), model_(std::move(model)), scales_(scales) {}
 
 std::vector<Request> BisectionController::respond(const StepView& view) {
   if (!first_mesh_) {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vesica/core/error.hpp"
+#include "core/refuse.hpp"
+#include "vesica/core/check.hpp"
 
 namespace vesica::relax {
 
@@ -30,30 +31,36 @@ double next_alpha(const DampingOptions& options, double alpha,
   return alpha;
 }
 
-void check(bool holds, std::string_view key, double value, const std::string& rule) {
-  if (!holds) throw ConfigError(fmt::format("damping.{} = {}: {}", key, value, rule));
+DampingOptions with_defaults(DampingOptions options) {
+  const bool is_paper = options.kind == DampingKind::paper;
+  options.initial = options.initial.value_or(is_paper ? 1e-4 : 1);
+  options.minimum = options.minimum.value_or(is_paper ? 1e-6 : 1e-2);
+  options.maximum = options.maximum.value_or(is_paper ? 1e4 : 10);
+  options.factor = options.factor.value_or(is_paper ? 10 : 2);
+  return options;
 }
 
 }  // namespace
 
-DampingOptions resolved_damping(const DampingOptions& options) {
-  DampingOptions result = options;
-  const bool is_paper = options.kind == DampingKind::paper;
-  result.initial = options.initial.value_or(is_paper ? 1e-4 : 1);
-  result.minimum = options.minimum.value_or(is_paper ? 1e-6 : 1e-2);
-  result.maximum = options.maximum.value_or(is_paper ? 1e4 : 10);
-  result.factor = options.factor.value_or(is_paper ? 10 : 2);
-  check(*result.minimum <= *result.maximum, "minimum", *result.minimum,
-        fmt::format("must be <= damping.maximum = {}", *result.maximum));
-  if (options.kind != DampingKind::fixed) {
-    check(*result.initial >= *result.minimum && *result.initial <= *result.maximum, "initial",
-          *result.initial,
-          fmt::format("must lie between damping.minimum = {} and damping.maximum = {}",
-                      *result.minimum, *result.maximum));
+void DampingOptions::check_together() const {
+  const DampingOptions all = with_defaults(*this);
+  if (*all.minimum > *all.maximum) {
+    refuse("damping.minimum", *all.minimum,
+           fmt::format("must be <= damping.maximum = {}", *all.maximum));
   }
-  check(result.lower_ratio < result.upper_ratio, "lower_ratio", result.lower_ratio,
-        fmt::format("must be < damping.upper_ratio = {}", result.upper_ratio));
-  return result;
+  if (kind != DampingKind::fixed && (*all.initial < *all.minimum || *all.initial > *all.maximum)) {
+    refuse("damping.initial", *all.initial,
+           fmt::format("must lie between damping.minimum = {} and damping.maximum = {}",
+                       *all.minimum, *all.maximum));
+  }
+  if (lower_ratio >= upper_ratio) {
+    refuse("damping.lower_ratio", lower_ratio,
+           fmt::format("must be < damping.upper_ratio = {}", upper_ratio));
+  }
+}
+
+DampingOptions resolved_damping(const DampingOptions& options) {
+  return with_defaults(checked("damping", options));
 }
 
 DampingController::DampingController(const DampingOptions& options, const problem::Scales& scales)

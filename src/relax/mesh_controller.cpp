@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/refuse.hpp"
 #include "vesica/adapt/size_field.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
@@ -24,9 +26,18 @@ constexpr int max_changes_after_failures = 5;
 
 }  // namespace
 
+void AdaptionOptions::check_together() const {
+  for_each_unused(*this, method, [this]<class T>(const Field& field, const T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      refuse(fmt::format("adaption.{}", field.name), value,
+             fmt::format("means nothing with adaption.method = \"{}\"", name_of(method)));
+    }
+  });
+}
+
 MeshController::MeshController(const AdaptionOptions& options, model::Model model,
                                const problem::Scales& scales)
-    : options_(options), model_(std::move(model)), scales_(scales) {}
+    : options_(checked("adaption", options)), model_(std::move(model)), scales_(scales) {}
 
 std::vector<Request> MeshController::respond(const StepView& view) {
   if (!new_quality_) new_quality_ = view.diagnostics.quality;

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "vesica/core/check.hpp"
 
 namespace vesica::relax {
 
@@ -24,14 +25,10 @@ std::array<double, model::num_constraints> in_natural_units(const model::PerCons
   return result;
 }
 
-double characteristic_radius(const measure::Diagnostics& diagnostics) {
-  return std::sqrt(diagnostics.measures.area() / (4 * std::numbers::pi));
-}
-
 }  // namespace
 
 Stationarity::Stationarity(const StopOptions& options, const model::Model& model)
-    : options_(options), model_(model) {}
+    : options_(checked("stop", options)), model_(model) {}
 
 bool Stationarity::is_at_rest(const StepView& view) {
   steps_at_rest_ = multipliers_moved(view) ? 0 : steps_at_rest_ + 1;
@@ -57,7 +54,7 @@ bool Stationarity::meets_velocity(const StepView& view) const {
 }
 
 double Stationarity::normal_velocity(const measure::Diagnostics& diagnostics) {
-  return diagnostics.velocity.normal_rigid_free / characteristic_radius(diagnostics);
+  return diagnostics.velocity.normal_rigid_free / diagnostics.characteristic_radius();
 }
 
 bool Stationarity::meets_constraints(const measure::Diagnostics& diagnostics) const {
@@ -69,7 +66,7 @@ bool Stationarity::meets_constraints(const measure::Diagnostics& diagnostics) co
 
 bool Stationarity::multipliers_moved(const StepView& view) const {
   if (!last_multipliers_) return true;
-  const double radius = characteristic_radius(view.diagnostics);
+  const double radius = view.diagnostics.characteristic_radius();
   const double rigidity = model_.material.bending_rigidity.phase_1.last();
   const auto now = in_natural_units(view.state.values.multipliers, radius, rigidity);
   const auto before = in_natural_units(*last_multipliers_, radius, rigidity);

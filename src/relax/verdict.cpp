@@ -18,37 +18,13 @@ Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
   verdict.time = state.time;
   verdict.multipliers = state.values.multipliers;
   verdict.shape = measure::shape_numbers(model, state);
+  verdict.velocity = verdict.outcome.diagnostics.velocity.over(verdict.shape.characteristic_radius);
   const auto& positions = state.values.positions;
   verdict.area_ratio = mesh::area_ratio(*state.triangulation, positions);
   verdict.smallest_normal_cosine = mesh::smallest_normal_cosine(*state.triangulation, positions);
   verdict.num_nodes = state.triangulation->num_nodes();
   verdict.num_triangles = state.triangulation->num_triangles();
   return verdict;
-}
-
-std::string_view status_name(relax::RunStatus status) {
-  switch (status) {
-    case relax::RunStatus::converged:
-      return "converged";
-    case relax::RunStatus::end_time:
-    case relax::RunStatus::time_limit:
-      return "time limit";
-    case relax::RunStatus::step_limit:
-      return "step limit";
-    case relax::RunStatus::stopped:
-      return "stopped";
-    case relax::RunStatus::neck_closes:
-      return "neck closes";
-    case relax::RunStatus::budding:
-      return "budding";
-    case relax::RunStatus::self_intersection:
-      return "self-intersection";
-    case relax::RunStatus::interrupted:
-      return "interrupted";
-    case relax::RunStatus::numerical_failure:
-      break;
-  }
-  return "numerical failure";
 }
 
 int exit_status(const relax::Outcome& outcome) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "config/unused_options.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/paper/bisection.hpp"
@@ -97,10 +97,10 @@ std::optional<std::string> warning_of_units(const config::RunConfig& config, con
 template <class Options>
 void warn_of_unused(std::string_view table, const Options& options,
                     std::vector<std::string>& warnings) {
-  for (const Field& field : config::unused_fields(options, options.kind)) {
+  for_each_unused(options, options.kind, [&](const Field& field, const auto&) {
     warnings.push_back(fmt::format("{0}.{1} means nothing with {0}.kind = \"{2}\"", table,
                                    field.name, name_of(options.kind)));
-  }
+  });
 }
 
 std::vector<std::string> warnings_of(const config::RunConfig& config, const Case& vesicle) {

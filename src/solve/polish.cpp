@@ -9,6 +9,7 @@
 #include <random>
 
 #include "newton_system.hpp"
+#include "vesica/core/check.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/problem/variational_problem.hpp"
 
@@ -201,7 +202,7 @@ Curvature Optimality::lowest_curvature() {
 
 Equilibrium find_equilibrium(const SolverOptions& options, const model::Model& model,
                              const problem::State& state, const mesh::Positions& reference) {
-  Optimality optimality(options, model, state, reference);
+  Optimality optimality(checked("solver", options), model, state, reference);
   Equilibrium result;
   result.report = optimality.solve();
   result.report.curvature = optimality.lowest_curvature();
@@ -224,7 +225,8 @@ std::string no_equilibrium_text(const PolishReport& report) {
 
 Curvature lowest_curvature(const SolverOptions& options, const model::Model& model,
                            const problem::State& state) {
-  return Optimality(options, model, state, state.values.positions).lowest_curvature();
+  return Optimality(checked("solver", options), model, state, state.values.positions)
+      .lowest_curvature();
 }
 
 }  // namespace vesica::solve

@@ -21,7 +21,7 @@ static_assert(EIGEN_DEFAULT_ALIGN_BYTES == 64 && EIGEN_MAX_STATIC_ALIGN_BYTES ==
 int main() {
   for (int resolution = 1; resolution <= 8; ++resolution) {
     vesica::shapes::ShapeOptions options;
-    options.kind = vesica::mesh::ShapeKind::sphere;
+    options.kind = vesica::shapes::ShapeKind::sphere;
     options.resolution = resolution;
     vesica::mesh::Surface surface = vesica::shapes::make_shape(options);
     const Eigen::Index num_nodes = surface.positions.rows();

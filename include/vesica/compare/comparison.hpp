@@ -52,6 +52,17 @@ struct Difference {
   bool is_on_common_mesh = false;
   std::optional<bool> same_equilibrium;  ///< absent unless both runs have converged
   std::string conclusion;                ///< one sentence
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"energy/absolute", "energy", "second - first"}, self.energy);
+    visit(Field{"energy/relative", "-", "over the larger modulus"}, self.relative_energy);
+    visit(Field{"multipliers", "-", "over the larger modulus"}, self.multipliers);
+    visit(Field{"", "-", "distances of the shapes"}, self.shape);
+    visit(Field{"on_common_mesh", "-", "both polished on one mesh"}, self.is_on_common_mesh);
+    visit(Field{"same_equilibrium", "-", "absent: not known"}, self.same_equilibrium);
+    visit(Field{"conclusion", "-", "one sentence"}, self.conclusion);
+  }
 };
 
 /// All runs, and all others against the first.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "vesica/core/fields.hpp"
 #include "vesica/mesh/triangulation.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -31,6 +32,13 @@ struct ShapeDistance {
   double hausdorff = 0;            ///< largest d over R_c, sampled at quadrature points and nodes
   std::optional<double> phase_l2;  ///< sqrt((int_1 + int_2) (c_1 - c_2)^2 / (A_1 + A_2)); absent
                                    ///< unless both carry a phase field
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"shape_l2", "-", "distance of the surfaces in L2 over R_c"}, self.l2);
+    visit(Field{"shape_hausdorff", "-", "largest distance over R_c"}, self.hausdorff);
+    visit(Field{"phase_l2", "-", "distance of the order parameters in L2"}, self.phase_l2);
+  }
 };
 
 /// The rigid motion (no reflection) of `second` that makes the L2 distance smallest, and the

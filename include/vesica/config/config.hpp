@@ -92,6 +92,10 @@ struct RunConfig {
 [[nodiscard]] RunConfig read_config_text(std::string_view text, std::string_view name,
                                          std::span<const std::string> overrides);
 
+/// Refuses options that break a rule, of their own or between tables. Throws ConfigError
+/// `table.key = value: rule`.
+void check(const RunConfig& config);
+
 /// `message` with the place of the key, "table.key", that it begins with.
 [[nodiscard]] std::string placed(const RunConfig& config, std::string_view message);
 

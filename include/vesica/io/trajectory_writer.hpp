@@ -41,10 +41,4 @@ class TrajectoryWriter final : public relax::Observer {
   std::unique_ptr<Writer> writer_;
 };
 
-/// The outcome of a run whose stepper could not be made: a numerical failure with energies and
-/// velocities NaN. Makes the run folder and a trajectory with the start as its only frame
-/// (curvature zero). Throws IoError.
-[[nodiscard]] relax::Outcome record_failed_start(const config::RunConfig& config,
-                                                 const setup::Case& vesicle, std::string reason);
-
 }  // namespace vesica::io

@@ -14,6 +14,22 @@ struct VelocityNorms {
   double normal = 0;             ///< ||v . nu||
   double normal_rigid_free = 0;  ///< the same after the best-fit rigid motion is taken away
   double tangential = 0;         ///< ||v - (v . nu) nu||
+
+  /// Returns the norm of the normal velocity of the best-fit rigid motion.
+  [[nodiscard]] double drift() const;
+  /// Returns the norms divided by `length`.
+  [[nodiscard]] VelocityNorms over(double length) const {
+    return {normal / length, normal_rigid_free / length, tangential / length};
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"normal_velocity", "length/time", "without the best-fit rigid motion"},
+          self.normal_rigid_free);
+    visit(Field{"normal_velocity_plain", "length/time", "nothing removed"}, self.normal);
+    visit(Field{"drift", "length/time", "of the rigid motion alone"}, self.drift());
+    visit(Field{"tangential_velocity", "length/time", "of the tangential part"}, self.tangential);
+  }
 };
 
 /// What is measured after every accepted step.
@@ -23,24 +39,60 @@ struct Diagnostics {
   model::PerConstraint
       constraint_errors;  ///< relative: (C - target) / scale, scale = |target| (area for the phase)
   VelocityNorms velocity;
-  double quality = 0;  ///< (3.5): smallest sine of the angles of the four flat sub-triangles
+  double quality = 0;
   std::vector<PhaseDomain> domains;  ///< as phase_domains()
+
+  /// Returns R_c = sqrt(A / 4 pi) (4.2) [length].
+  [[nodiscard]] double characteristic_radius() const;
+
+  /// All but the velocity, which results give over R_c.
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"energy/total", "energy", "sum of the parts"}, self.energy.total());
+    visit(Field{"energy", "energy", "parts of the energy"}, self.energy);
+    visit(Field{"constraints", "-", "relative errors"}, self.constraint_errors);
+    visit(Field{"shape", "", "the constrained functionals"}, self.measures);
+    visit(Field{"mesh/quality", "-",
+                "(3.5): smallest sine of the angles of the four flat "
+                "sub-triangles"},
+          self.quality);
+    visit(Field{"domains", "-", "connected domains of the phases"}, self.domains);
+  }
 };
 
 /// Dimensionless numbers of Section 4 and lengths of the shape; what is not defined for it is
 /// absent.
 struct ShapeNumbers {
-  double characteristic_radius = 0;               ///< R_c = sqrt(A / 4 pi) (4.2) [length]
-  double reduced_volume = 0;                      ///< v_r
-  std::optional<double> phase_fraction;           ///< x_r = A_2 / A
-  std::optional<double> reduced_line_tension;     ///< R_c (4/3 sigma) / k^(1)
-  std::optional<double> rigidity_ratio;           ///< b_r = k^(2) / k^(1)
-  std::optional<double> saddle_splay_difference;  ///< Delta_g = (k_g^(1) - k_g^(2)) / k^(1)
-  std::optional<double> neck_radius;  ///< smallest interior minimum of (cross-section perimeter)/2
-                                      ///< pi along the long axis
-  std::optional<double> length;       ///< extent along the long axis
-  std::optional<int> domains_1;       ///< connected domains with c > 0
-  std::optional<int> domains_2;       ///< connected domains with c < 0
+  double characteristic_radius = 0;
+  double reduced_volume = 0;
+  std::optional<double> phase_fraction;
+  std::optional<double> reduced_line_tension;
+  std::optional<double> rigidity_ratio;
+  std::optional<double> saddle_splay_difference;
+  std::optional<double> neck_radius;
+  std::optional<double> length;
+  std::optional<int> domains_1;
+  std::optional<int> domains_2;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"shape/characteristic_radius", "length", "R_c = sqrt(A / 4 pi) (4.2)"},
+          self.characteristic_radius);
+    visit(Field{"shape/reduced_volume", "-", "v_r"}, self.reduced_volume);
+    visit(Field{"shape/phase_fraction", "-", "x_r = A_2 / A"}, self.phase_fraction);
+    visit(Field{"shape/reduced_line_tension", "-", "R_c (4/3 sigma) / k^(1)"},
+          self.reduced_line_tension);
+    visit(Field{"shape/rigidity_ratio", "-", "b_r = k^(2) / k^(1)"}, self.rigidity_ratio);
+    visit(Field{"shape/saddle_splay_difference", "-", "Delta_g = (k_g^(1) - k_g^(2)) / k^(1)"},
+          self.saddle_splay_difference);
+    visit(
+        Field{"shape/neck_radius", "length",
+              "smallest interior minimum of (cross-section perimeter) / 2 pi along the long axis"},
+        self.neck_radius);
+    visit(Field{"shape/length", "length", "extent along the long axis"}, self.length);
+    visit(Field{"domains/phase_1", "-", "connected domains with c > 0"}, self.domains_1);
+    visit(Field{"domains/phase_2", "-", "connected domains with c < 0"}, self.domains_2);
+  }
 };
 
 /// Fields at the nodes for pictures, shape (N) or (N, 3).

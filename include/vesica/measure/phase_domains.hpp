@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vesica/core/fields.hpp"
 #include "vesica/problem/state.hpp"
 
 namespace vesica::measure {
@@ -14,6 +15,14 @@ struct PhaseDomain {
   double boundary_length = 0;  ///< of the curves c = 0 around it; 0 for the whole surface [length]
   Eigen::Vector3d centroid =
       Eigen::Vector3d::Zero();  ///< int x / area, as a rule off the surface [length]
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"phase", "-", "1 (c > 0) or 2 (c < 0)"}, self.phase);
+    visit(Field{"area", "length^2", "area"}, self.area);
+    visit(Field{"boundary_length", "length", "length of the curves c = 0"}, self.boundary_length);
+    visit(Field{"centroid", "length", "int x / area"}, self.centroid);
+  }
 };
 
 /// All domains, phase 1 first and the larger ones first; none for a single-phase vesicle. Nodes

@@ -5,10 +5,9 @@
 #include "vesica/core/fields.hpp"
 #include "vesica/model/per_term.hpp"
 #include "vesica/model/schedule.hpp"
+#include "vesica/model/target.hpp"
 
 namespace vesica::model {
-
-enum class TargetKind { initial, free, prescribed };
 
 /// What a case says of one constraint: a number or schedule, "initial" (what the start has), or
 /// "free" (no constraint).
@@ -16,12 +15,24 @@ struct Target {
   TargetKind kind = TargetKind::initial;
   Schedule schedule{};
   bool begins_at_start = false;  ///< the first value of the schedule is what the start has
+  [[nodiscard]] const Schedule& parts() const { return schedule; }
   friend bool operator==(const Target&, const Target&) = default;
 };
 
+/// What a case file that says nothing of the constraints means: "initial", or what a constraint
+/// declares as `default_target`.
+[[nodiscard]] inline PerTerm<Constraints, Target> default_targets() {
+  PerTerm<Constraints, Target> targets;
+  for_each_term<Constraints>([&]<class Constraint>() {
+    if constexpr (requires { Constraint::default_target; })
+      targets.of<Constraint>().kind = Constraint::default_target;
+  });
+  return targets;
+}
+
 /// Constraints (2.1), (2.4), in the units of the case or in the reduced numbers of Section 4.
 struct ConstraintOptions {
-  PerTerm<Constraints, Target> targets{};
+  PerTerm<Constraints, Target> targets = default_targets();
   std::optional<double> reduced_volume{};
   std::optional<double> phase_fraction{};
 
@@ -39,6 +50,8 @@ struct ConstraintOptions {
         Field{"phase_fraction", "-", "instead of phase_difference: x_r = A_2 / A", Rule::fraction},
         self.phase_fraction);
   }
+  /// Refuses a quantity that is given twice.
+  void check_together() const;
 };
 
 }  // namespace vesica::model

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "vesica/core/fields.hpp"
@@ -22,6 +23,7 @@ struct PhaseSchedules {
   [[nodiscard]] PhasePair at(double time) const {
     return {phase_1.value(time), phase_2.value(time)};
   }
+  [[nodiscard]] std::array<Schedule, 2> parts() const { return {phase_1, phase_2}; }
   friend bool operator==(const PhaseSchedules&, const PhaseSchedules&) = default;
 };
 
@@ -97,6 +99,8 @@ struct MaterialOptions {
                 "Delta_g = (k_g,1 - k_g,2) / k_1; sets k_g of phase 1, k_g,2 = 0"},
           self.saddle_splay_difference);
   }
+  /// Refuses a quantity that is given twice.
+  void check_together() const;
 };
 
 }  // namespace vesica::model

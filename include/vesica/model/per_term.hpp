@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -39,13 +40,18 @@ struct PerTerm {
   }
 };
 
-/// Energy by parts [energy]; absent for a term that takes no part. The Gaussian part is the one of
+/// Energy by parts [energy]; a term that takes no part is absent. The Gaussian part is the one of
 /// (1.6), int k_g(c) g with g = (kappa^2 - |Q|^2)/2; (4.3) lacks the factor 1/2.
 struct EnergyParts : PerTerm<Energies, std::optional<double>> {
+  /// Returns the sum of the parts; NaN when there is none.
   [[nodiscard]] double total() const {
     double sum = 0;
-    for (const auto& part : values) sum += part.value_or(0.0);
-    return sum;
+    bool is_known = false;
+    for (const auto& part : values) {
+      sum += part.value_or(0.0);
+      is_known = is_known || part;
+    }
+    return is_known ? sum : std::numeric_limits<double>::quiet_NaN();
   }
 };
 

@@ -59,14 +59,16 @@ struct LocalDensity {
   Vec3<T> by_normal{};                    ///< df/dnu
 };
 
-/// First variation of a density that depends on c and grad c alone:
+/// First variation of a density that does not look at the curvature, P = I - nu nu^T:
 ///
-///     a = -f kappa - f_grad . Q grad c,   s = f_c,   q = f_grad.
+///     a = -f kappa - f_grad . Q grad c + f_x . nu,   b = -P f_nu,   s = f_c,   q = f_grad.
 template <class T>
 Variation<T> variation_of(const LocalDensity<T>& f, const SurfacePoint<T>& p) {
   const Vec3<T>& q = f.by_order_parameter_gradient;
   Variation<T> v;
-  v.a = -(f.value * p.mean_curvature) - dot(q, p.shape_operator * p.order_parameter_gradient);
+  v.a = dot(f.by_position, p.normal) - f.value * p.mean_curvature -
+        dot(q, p.shape_operator * p.order_parameter_gradient);
+  v.b = dot(f.by_normal, p.normal) * p.normal - f.by_normal;
   v.s = f.by_order_parameter;
   v.q = q;
   return v;

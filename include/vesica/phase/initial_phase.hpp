@@ -20,6 +20,43 @@ enum class Axis { x, y, z, radial };
 enum class CapEnds { high, low, both };
 enum class BandDirection { along, around };
 
+}  // namespace vesica::phase
+
+namespace vesica {
+template <>
+struct EnumNames<phase::PhaseKind> {
+  using enum phase::PhaseKind;
+  static constexpr std::array<std::pair<phase::PhaseKind, std::string_view>, 7> names{
+      {{uniform, "uniform"},
+       {ramp, "ramp"},
+       {caps, "caps"},
+       {bands, "bands"},
+       {spots, "spots"},
+       {noise, "noise"},
+       {file, "file"}}};
+};
+template <>
+struct EnumNames<phase::Axis> {
+  using enum phase::Axis;
+  static constexpr std::array<std::pair<phase::Axis, std::string_view>, 4> names{
+      {{x, "x"}, {y, "y"}, {z, "z"}, {radial, "radial"}}};
+};
+template <>
+struct EnumNames<phase::CapEnds> {
+  using enum phase::CapEnds;
+  static constexpr std::array<std::pair<phase::CapEnds, std::string_view>, 3> names{
+      {{high, "high"}, {low, "low"}, {both, "both"}}};
+};
+template <>
+struct EnumNames<phase::BandDirection> {
+  using enum phase::BandDirection;
+  static constexpr std::array<std::pair<phase::BandDirection, std::string_view>, 2> names{
+      {{along, "along"}, {around, "around"}}};
+};
+}  // namespace vesica
+
+namespace vesica::phase {
+
 /// Initial order parameter by name. Interfaces of caps, bands and spots have the equilibrium
 /// profile tanh(s / epsilon).
 struct PhaseOptions {
@@ -41,31 +78,37 @@ struct PhaseOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum PhaseKind;
     visit(Field{"kind", "-", "ramp (4.1), caps, bands, spots, noise, uniform or file"}, self.kind);
-    visit(Field{"axis", "-",
-                "x, y, z or radial (distance from the line along z through the centroid): "
-                "coordinate of ramp, caps and bands"},
-          self.axis);
-    visit(Field{"from", "length", "ramp: coordinate where c = -1"}, self.from);
-    visit(Field{"to", "length", "ramp: coordinate where c = +1"}, self.to);
-    visit(Field{"ends", "-", "caps: phase 1 at the high, the low or both ends of the axis"},
+    visit(
+        Field{"axis", "-",
+              "coordinate: x, y, z or radial (distance from the line along z through the centroid)",
+              Rule::any, Users(ramp, caps, bands)},
+        self.axis);
+    visit(Field{"from", "length", "coordinate where c = -1", Rule::any, Users(ramp)}, self.from);
+    visit(Field{"to", "length", "coordinate where c = +1", Rule::any, Users(ramp)}, self.to);
+    visit(Field{"ends", "-", "phase 1 at the high, the low or both ends of the axis", Rule::any,
+                Users(caps)},
           self.ends);
-    visit(Field{"fraction", "-", "caps, bands: part of the extent (of a period) in phase 1",
-                Rule::fraction},
+    visit(Field{"fraction", "-", "part of the extent (of a period) in phase 1", Rule::fraction,
+                Users(caps, bands)},
           self.fraction);
-    visit(Field{"count", "-", "bands: number of domains of phase 1", Rule::at_least_one},
+    visit(Field{"count", "-", "number of domains of phase 1", Rule::at_least_one, Users(bands)},
           self.count);
-    visit(Field{"direction", "-", "bands: along the axis or around it (tori; x, y or z)"},
+    visit(Field{"direction", "-", "along the axis or around it (tori; x, y or z)", Rule::any,
+                Users(bands)},
           self.direction);
-    visit(Field{"directions", "-", "spots: list of directions [[x, y, z], ...] from the centre"},
+    visit(Field{"directions", "-", "list of directions [[x, y, z], ...] from the centre", Rule::any,
+                Users(spots)},
           self.directions);
-    visit(Field{"angle", "degree", "spots: half opening angle", Rule::positive}, self.angle);
-    visit(Field{"mean", "-", "noise, uniform: mean of c"}, self.mean);
-    visit(Field{"amplitude", "-", "noise: c = mean + amplitude * uniform(-1, 1) at each node",
-                Rule::non_negative},
+    visit(Field{"angle", "degree", "half opening angle", Rule::positive, Users(spots)}, self.angle);
+    visit(Field{"mean", "-", "mean of c", Rule::any, Users(noise, uniform)}, self.mean);
+    visit(Field{"amplitude", "-", "c = mean + amplitude * uniform(-1, 1) at each node",
+                Rule::non_negative, Users(noise)},
           self.amplitude);
-    visit(Field{"seed", "-", "noise: seed of the random numbers"}, self.seed);
-    visit(Field{"path", "-", "file: one value a node, in node order; # starts a comment"},
+    visit(Field{"seed", "-", "seed of the random numbers", Rule::any, Users(noise)}, self.seed);
+    visit(Field{"path", "-", "one value a node, in node order; # starts a comment", Rule::any,
+                Users(file)},
           self.path);
     visit(Field{"match_target", "-",
                 "shift the level so that int h(c) meets its target at the start"},
@@ -81,37 +124,3 @@ struct PhaseOptions {
                                             std::optional<double> target);
 
 }  // namespace vesica::phase
-
-namespace vesica {
-template <>
-struct EnumNames<phase::PhaseKind> {
-  static constexpr std::array<std::pair<phase::PhaseKind, std::string_view>, 7> names{
-      {{phase::PhaseKind::uniform, "uniform"},
-       {phase::PhaseKind::ramp, "ramp"},
-       {phase::PhaseKind::caps, "caps"},
-       {phase::PhaseKind::bands, "bands"},
-       {phase::PhaseKind::spots, "spots"},
-       {phase::PhaseKind::noise, "noise"},
-       {phase::PhaseKind::file, "file"}}};
-};
-template <>
-struct EnumNames<phase::Axis> {
-  static constexpr std::array<std::pair<phase::Axis, std::string_view>, 4> names{
-      {{phase::Axis::x, "x"},
-       {phase::Axis::y, "y"},
-       {phase::Axis::z, "z"},
-       {phase::Axis::radial, "radial"}}};
-};
-template <>
-struct EnumNames<phase::CapEnds> {
-  static constexpr std::array<std::pair<phase::CapEnds, std::string_view>, 3> names{
-      {{phase::CapEnds::high, "high"},
-       {phase::CapEnds::low, "low"},
-       {phase::CapEnds::both, "both"}}};
-};
-template <>
-struct EnumNames<phase::BandDirection> {
-  static constexpr std::array<std::pair<phase::BandDirection, std::string_view>, 2> names{
-      {{phase::BandDirection::along, "along"}, {phase::BandDirection::around, "around"}}};
-};
-}  // namespace vesica

@@ -16,6 +16,19 @@ namespace vesica::relax {
 /// initial.
 enum class DampingKind { speed, ratio, paper, fixed };
 
+}  // namespace vesica::relax
+
+namespace vesica {
+template <>
+struct EnumNames<relax::DampingKind> {
+  using enum relax::DampingKind;
+  static constexpr std::array<std::pair<relax::DampingKind, std::string_view>, 4> names{
+      {{speed, "speed"}, {ratio, "ratio"}, {paper, "paper"}, {fixed, "fixed"}}};
+};
+}  // namespace vesica
+
+namespace vesica::relax {
+
 /// Tangential damping alpha of (3.4). alpha is measured in R_c^2/k_kappa. What is not given takes
 /// the default of its kind (`resolved_damping`).
 struct DampingOptions {
@@ -30,6 +43,8 @@ struct DampingOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum DampingKind;
+    constexpr Users all_but_fixed(speed, ratio, paper);
     visit(
         Field{
             "kind", "-",
@@ -37,24 +52,29 @@ struct DampingOptions {
         self.kind);
     visit(Field{"initial", "R_c^2/k", "start value; default 1 (paper: 1e-4)", Rule::positive},
           self.initial);
-    visit(Field{"minimum", "R_c^2/k", "lower limit; default 1e-2 (paper: 1e-6)", Rule::positive},
+    visit(Field{"minimum", "R_c^2/k", "lower limit; default 1e-2 (paper: 1e-6)", Rule::positive,
+                all_but_fixed},
           self.minimum);
-    visit(Field{"maximum", "R_c^2/k", "upper limit; default 10 (paper: 1e4)", Rule::positive},
+    visit(Field{"maximum", "R_c^2/k", "upper limit; default 10 (paper: 1e4)", Rule::positive,
+                all_but_fixed},
           self.maximum);
-    visit(
-        Field{"factor", "-", "largest change in a step; default 2 (paper: 10)", Rule::at_least_one},
-        self.factor);
-    visit(Field{"gain", "-", "K of kind speed", Rule::positive}, self.gain);
-    visit(
-        Field{"lower_ratio", "-", "c_v of (3.4): below it the damping is lowered", Rule::positive},
-        self.lower_ratio);
-    visit(Field{"upper_ratio", "-", "C_v of (3.4): above it the damping is raised", Rule::positive},
+    visit(Field{"factor", "-", "largest change in a step; default 2 (paper: 10)",
+                Rule::at_least_one, all_but_fixed},
+          self.factor);
+    visit(Field{"gain", "-", "alpha times ||v_nu||", Rule::positive, Users(speed)}, self.gain);
+    visit(Field{"lower_ratio", "-", "c_v of (3.4): below it the damping is lowered", Rule::positive,
+                Users(ratio, paper)},
+          self.lower_ratio);
+    visit(Field{"upper_ratio", "-", "C_v of (3.4): above it the damping is raised", Rule::positive,
+                Users(ratio, paper)},
           self.upper_ratio);
   }
+  /// Refuses limits and ratios in the wrong order, and a start outside of the limits.
+  void check_together() const;
 };
 
-/// The options with every default of their kind filled in. Throws ConfigError when minimum >
-/// maximum, initial lies outside of them, or lower_ratio >= upper_ratio.
+/// Returns the options with every default of their kind filled in. Throws ConfigError as `check`,
+/// and when minimum > maximum, initial lies outside of them, or lower_ratio >= upper_ratio.
 [[nodiscard]] DampingOptions resolved_damping(const DampingOptions& options);
 
 /// Chooses alpha between steps from the velocity norms.
@@ -70,14 +90,3 @@ class DampingController final : public Controller {
 };
 
 }  // namespace vesica::relax
-
-namespace vesica {
-template <>
-struct EnumNames<relax::DampingKind> {
-  static constexpr std::array<std::pair<relax::DampingKind, std::string_view>, 4> names{
-      {{relax::DampingKind::speed, "speed"},
-       {relax::DampingKind::ratio, "ratio"},
-       {relax::DampingKind::paper, "paper"},
-       {relax::DampingKind::fixed, "fixed"}}};
-};
-}  // namespace vesica

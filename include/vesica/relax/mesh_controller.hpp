@@ -23,10 +23,9 @@ enum class MeshMethod { local, bisection, conformal };
 namespace vesica {
 template <>
 struct EnumNames<relax::MeshMethod> {
+  using enum relax::MeshMethod;
   static constexpr std::array<std::pair<relax::MeshMethod, std::string_view>, 3> names{
-      {{relax::MeshMethod::local, "local"},
-       {relax::MeshMethod::bisection, "bisection"},
-       {relax::MeshMethod::conformal, "conformal"}}};
+      {{local, "local"}, {bisection, "bisection"}, {conformal, "conformal"}}};
 };
 }  // namespace vesica
 
@@ -52,6 +51,7 @@ struct AdaptionOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum MeshMethod;
     visit(Field{"enabled", "-",
                 "new meshes where the surface needs them; method ida with scheme paper only"},
           self.enabled);
@@ -59,19 +59,19 @@ struct AdaptionOptions {
                 "local (towards a size field), bisection (3.5) or conformal (bisection, and the "
                 "image of a sphere mesh, 3.6, for bad ones)"},
           self.method);
-    visit(Field{"curvature_angle", "rad", "local: edge times curvature while the vesicle moves",
-                Rule::positive},
+    visit(Field{"curvature_angle", "rad", "edge times curvature while the vesicle moves",
+                Rule::positive, Users(local)},
           self.curvature_angle);
     visit(Field{"interface_size", "-",
-                "local: edge in the phase interface over interface_width while the vesicle moves",
-                Rule::positive},
+                "edge in the phase interface over interface_width while the vesicle moves",
+                Rule::positive, Users(local)},
           self.interface_size);
-    visit(Field{"final_curvature_angle", "rad", "local: edge times curvature near the equilibrium",
-                Rule::positive},
+    visit(Field{"final_curvature_angle", "rad", "edge times curvature near the equilibrium",
+                Rule::positive, Users(local)},
           self.final_curvature_angle);
     visit(Field{"final_interface_size", "-",
-                "local: edge in the phase interface over interface_width near the equilibrium",
-                Rule::positive},
+                "edge in the phase interface over interface_width near the equilibrium",
+                Rule::positive, Users(local)},
           self.final_interface_size);
     visit(Field{"max_size", "R_c", "longest edge of an element", Rule::positive}, self.max_size);
     visit(Field{"max_nodes", "-",
@@ -79,29 +79,30 @@ struct AdaptionOptions {
                 "allows",
                 Rule::at_least_one},
           self.max_nodes);
-    visit(Field{"min_steps", "-", "local: steps between changes of the mesh, but for emergencies",
-                Rule::at_least_one},
+    visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
+                Rule::at_least_one, Users(local)},
           self.min_steps);
     visit(Field{"n_in", "-",
-                "bisection, conformal: interface_width over the diameter of elements in the phase "
+                "interface_width over the diameter of elements in the phase "
                 "interface",
-                Rule::positive},
+                Rule::positive, Users(bisection, conformal)},
           self.n_in);
-    visit(Field{"n_off", "-",
-                "bisection, conformal: interface_width over the diameter of elements elsewhere",
-                Rule::positive},
+    visit(Field{"n_off", "-", "interface_width over the diameter of elements elsewhere",
+                Rule::positive, Users(bisection, conformal)},
           self.n_off);
-    visit(Field{"n_kappa", "-", "bisection, conformal: diameter of elements times curvature",
-                Rule::positive},
+    visit(Field{"n_kappa", "-", "diameter of elements times curvature", Rule::positive,
+                Users(bisection, conformal)},
           self.n_kappa);
-    visit(Field{"every", "-", "bisection, conformal: steps between changes of the mesh",
-                Rule::at_least_one},
+    visit(Field{"every", "-", "steps between changes of the mesh", Rule::at_least_one,
+                Users(bisection, conformal)},
           self.every);
     visit(Field{"conformal_quality", "-",
-                "conformal: quality (3.5) below which a sphere mesh is laid on the surface",
-                Rule::fraction},
+                "quality (3.5) below which a sphere mesh is laid on the surface", Rule::fraction,
+                Users(conformal)},
           self.conformal_quality);
   }
+  /// Refuses fields that are changed but not used by the method.
+  void check_together() const;
 };
 
 /// Asks for a new mesh when the present one no longer fits. With L the wanted size of edges, coarse

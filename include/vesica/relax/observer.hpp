@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct Event {
   long step = 0;
   double time = 0;  ///< [time]
   std::string what;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"step", "-", "step in which it was noticed"}, self.step);
+    visit(Field{"time", "time", "time of that step"}, self.time);
+    visit(Field{"what", "-", "one line"}, self.what);
+  }
 };
 
 /// A change of the mesh between two steps.
@@ -32,6 +40,17 @@ struct MeshChange {
   double quality_before = 0;
   double quality_after = 0;
   std::string reason;  ///< what follows "because"
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"step", "-", "step after which it was made"}, self.step);
+    visit(Field{"time", "time", "time of that step"}, self.time);
+    visit(Field{"nodes_before", "-", "nodes of the old mesh"}, self.nodes_before);
+    visit(Field{"nodes_after", "-", "nodes of the new mesh"}, self.nodes_after);
+    visit(Field{"quality_before", "-", "quality (3.5) of the old mesh"}, self.quality_before);
+    visit(Field{"quality_after", "-", "quality (3.5) of the new mesh"}, self.quality_after);
+    visit(Field{"reason", "-", "what follows \"because\""}, self.reason);
+  }
 };
 
 /// Why a run ended. The numbers are not the exit status; `exit_status` in relax/verdict.hpp maps
@@ -48,6 +67,31 @@ enum class RunStatus {
   interrupted,
   numerical_failure
 };
+
+}  // namespace vesica::relax
+
+namespace vesica {
+
+/// Names of `verdict.json`. Two limits of time are one for its readers, the first one listed.
+template <>
+struct EnumNames<relax::RunStatus> {
+  using enum relax::RunStatus;
+  static constexpr std::array<std::pair<relax::RunStatus, std::string_view>, 10> names{
+      {{converged, "converged"},
+       {time_limit, "time limit"},
+       {end_time, "time limit"},
+       {step_limit, "step limit"},
+       {stopped, "stopped"},
+       {neck_closes, "neck closes"},
+       {budding, "budding"},
+       {self_intersection, "self-intersection"},
+       {interrupted, "interrupted"},
+       {numerical_failure, "numerical failure"}}};
+};
+
+}  // namespace vesica
+
+namespace vesica::relax {
 
 /// Result of relax(): how it ended, and the numbers of the last good state.
 struct Outcome {

@@ -7,6 +7,7 @@
 #include "vesica/core/fields.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/relax/controller.hpp"
+#include "vesica/solve/solver_options.hpp"
 
 namespace vesica::relax {
 
@@ -24,34 +25,38 @@ struct StopOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum solve::Method;
+    constexpr Users flows(ida, semi_implicit);
     visit(Field{"normal_velocity", "length/time",
                 "converged below it: ||v_nu|| / R_c, rigid motion removed; in the units of the "
                 "case, 1e-3 k/R_c^3 is usual",
-                Rule::positive},
+                Rule::positive, flows},
           self.normal_velocity);
     visit(Field{"constraint", "-", "converged below it: relative errors of the constraints",
                 Rule::positive},
           self.constraint);
     visit(Field{"multiplier_change", "-",
-                "converged below it: relative change of the multipliers in a step", Rule::positive},
+                "converged below it: relative change of the multipliers in a step", Rule::positive,
+                flows},
           self.multiplier_change);
     visit(Field{"gradient", "-",
                 "converged below it: distance to the minimum sqrt(g P g / k), about sqrt(2 (E - "
-                "E_min) / k); method minimize only",
-                Rule::positive},
+                "E_min) / k)",
+                Rule::positive, Users(minimize)},
           self.gradient);
     visit(Field{"rest_steps", "-", "number of last steps in which the multipliers must be at rest",
-                Rule::at_least_one},
+                Rule::at_least_one, flows},
           self.rest_steps);
-    visit(Field{"steps_without_newton", "-",
-                "number of last steps without a quasi-Newton iteration; method semi-implicit only "
-                "(there 10 unless given, as in 3.4)",
-                Rule::non_negative},
-          self.steps_without_newton);
-    visit(Field{"end_time", "length^4/energy", "stop at this time", Rule::positive}, self.end_time);
+    visit(
+        Field{"steps_without_newton", "-",
+              "number of last steps without a quasi-Newton iteration (10 unless given, as in 3.4)",
+              Rule::non_negative, Users(semi_implicit)},
+        self.steps_without_newton);
+    visit(Field{"end_time", "length^4/energy", "stop at this time", Rule::positive_or_infinite},
+          self.end_time);
     visit(Field{"max_steps", "-", "stop after this many steps", Rule::at_least_one},
           self.max_steps);
-    visit(Field{"max_seconds", "s", "stop after this wall-clock time", Rule::positive},
+    visit(Field{"max_seconds", "s", "stop after this wall-clock time", Rule::positive_or_infinite},
           self.max_seconds);
   }
 };

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/model/model.hpp"
@@ -22,20 +21,44 @@ struct Verdict {
   std::string scheme;
   double time = 0;  ///< [time]
   model::PerConstraint multipliers;
+  measure::VelocityNorms velocity;  ///< over R_c [length/time]
   measure::ShapeNumbers shape;
-  double area_ratio = 0;              ///< largest element area over the smallest
-  double smallest_normal_cosine = 0;  ///< between neighbouring flat triangles; -1 for a fold
+  double area_ratio = 0;
+  double smallest_normal_cosine = 0;
   std::int32_t num_nodes = 0;
   std::int32_t num_triangles = 0;
+
+  /// The layout of `verdict.json`.
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    auto& outcome = self.outcome;
+    visit(Field{"status", "-", "how the run ended"}, outcome.status);
+    visit(Field{"reason", "-", "one sentence"}, outcome.reason);
+    visit(Field{"time", "time", "time reached"}, self.time);
+    visit(Field{"method", "-", "as in the case file"}, self.method);
+    visit(Field{"scheme", "-", "paper or variational"}, self.scheme);
+    visit(Field{"multipliers", "-", "signs as in (1.7a)"}, self.multipliers);
+    visit(Field{"mesh/nodes", "-", "nodes"}, self.num_nodes);
+    visit(Field{"mesh/triangles", "-", "triangles"}, self.num_triangles);
+    visit(Field{"", "-", "measured at the end"}, outcome.diagnostics);
+    visit(Field{"", "length/time", "velocities over R_c"}, self.velocity);
+    visit(Field{"mesh/quality_initial", "-", "at the start"}, outcome.initial_quality);
+    visit(Field{"mesh/quality_smallest", "-", "over the run"}, outcome.smallest_quality);
+    visit(Field{"mesh/area_ratio", "-", "largest element over smallest"}, self.area_ratio);
+    visit(Field{"mesh/smallest_normal_cosine", "-",
+                "between neighbouring flat triangles; -1 for a fold"},
+          self.smallest_normal_cosine);
+    visit(Field{"mesh/adaptions", "-", "of a fixed mesh, always 0"}, 0);
+    visit(Field{"mesh/remeshings", "-", "number of changes of the mesh"}, outcome.mesh_changes);
+    visit(Field{"", "-", "numbers of the shape"}, self.shape);
+    visit(Field{"events", "-", "in the order in which they were noticed"}, outcome.events);
+    visit(Field{"", "-", "work"}, outcome.report);
+  }
 };
 
 /// The verdict on `state`, the last good one.
 [[nodiscard]] Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
                                    const model::Model& model, const problem::State& state);
-
-/// "converged", "time limit", "step limit", "neck closes", "budding", "self-intersection",
-/// "interrupted", "numerical failure"; "stopped" when a controller of the user ended the run.
-[[nodiscard]] std::string_view status_name(relax::RunStatus status);
 
 /// Exit status of the program: 0 converged, 1 stopped before convergence, 3 numerical failure, 128
 /// + signal interrupted (130 SIGINT, 143 SIGTERM).

@@ -22,20 +22,22 @@ namespace vesica {
 
 template <>
 struct EnumNames<shapes::ShapeKind> {
+  using enum shapes::ShapeKind;
   static constexpr std::array<std::pair<shapes::ShapeKind, std::string_view>, 7> names = {
-      {{shapes::ShapeKind::capsule, "capsule"},
-       {shapes::ShapeKind::sphere, "sphere"},
-       {shapes::ShapeKind::ellipsoid, "ellipsoid"},
-       {shapes::ShapeKind::torus, "torus"},
-       {shapes::ShapeKind::peanut, "peanut"},
-       {shapes::ShapeKind::tips, "tips"},
-       {shapes::ShapeKind::file, "file"}}};
+      {{capsule, "capsule"},
+       {sphere, "sphere"},
+       {ellipsoid, "ellipsoid"},
+       {torus, "torus"},
+       {peanut, "peanut"},
+       {tips, "tips"},
+       {file, "file"}}};
 };
 
 template <>
 struct EnumNames<shapes::SphereBase> {
+  using enum shapes::SphereBase;
   static constexpr std::array<std::pair<shapes::SphereBase, std::string_view>, 2> names = {
-      {{shapes::SphereBase::cube, "cube"}, {shapes::SphereBase::icosahedron, "icosahedron"}}};
+      {{cube, "cube"}, {icosahedron, "icosahedron"}}};
 };
 
 }  // namespace vesica
@@ -62,45 +64,52 @@ struct ShapeOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum ShapeKind;
     visit(Field{"kind", "-", "capsule, sphere, ellipsoid, torus, peanut, tips, file"}, self.kind);
-    visit(Field{"resolution", "-",
-                "capsule, peanut: squares along an edge of a glued cube face (capsule of length 4: "
-                "N = 72 m^2 + 2); torus: elements around the tube; sphere, ellipsoid, tips: pieces "
-                "of an icosahedron edge (N = 40 m^2 + 2), or bisections of the cube "
-                "(N = 24 2^m + 2)",
-                Rule::at_least_one},
-          self.resolution);
-    visit(Field{"length", "length", "capsule, peanut: total length along x", Rule::positive},
-          self.length);
-    visit(Field{"diameter", "length", "capsule, peanut: largest diameter", Rule::positive},
-          self.diameter);
     visit(
-        Field{"waist", "length", "peanut: diameter in the middle, below diameter", Rule::positive},
-        self.waist);
-    visit(Field{"base", "-", "sphere, ellipsoid, tips: made from a cube or icosahedron"},
+        Field{"resolution", "-",
+              "squares along an edge of a glued cube face of a capsule or peanut (capsule of "
+              "length 4: N = 72 m^2 + 2), elements around the tube of a torus, otherwise pieces "
+              "of an icosahedron edge (N = 40 m^2 + 2) or bisections of the cube (N = 24 2^m + 2)",
+              Rule::at_least_one, Users(capsule, peanut, torus, sphere, ellipsoid, tips)},
+        self.resolution);
+    visit(Field{"length", "length", "total length along x", Rule::positive, Users(capsule, peanut)},
+          self.length);
+    visit(Field{"diameter", "length", "largest diameter", Rule::positive, Users(capsule, peanut)},
+          self.diameter);
+    visit(Field{"waist", "length", "diameter in the middle, below diameter", Rule::positive,
+                Users(peanut)},
+          self.waist);
+    visit(Field{"base", "-", "made from a cube or icosahedron", Rule::any,
+                Users(sphere, ellipsoid, tips)},
           self.base);
-    visit(Field{"radius", "length", "sphere, tips: radius", Rule::positive}, self.radius);
-    visit(Field{"semi_axes", "length", "ellipsoid: semi-axes along x, y, z", Rule::positive},
+    visit(Field{"radius", "length", "radius", Rule::positive, Users(sphere, tips)}, self.radius);
+    visit(Field{"semi_axes", "length", "semi-axes along x, y, z", Rule::positive, Users(ellipsoid)},
           self.semi_axes);
-    visit(Field{"major_radius", "length", "torus: from the centre to the middle of the tube",
-                Rule::positive},
+    visit(Field{"major_radius", "length", "from the centre to the middle of the tube",
+                Rule::positive, Users(torus)},
           self.major_radius);
-    visit(Field{"minor_radius", "length", "torus: of the tube, below major_radius", Rule::positive},
+    visit(Field{"minor_radius", "length", "of the tube, below major_radius", Rule::positive,
+                Users(torus)},
           self.minor_radius);
     visit(Field{"number_of_tips", "-",
-                "tips: 1 pole, 2 poles, 3 triangle, 4 tetrahedron, 6 octahedron, 12 icosahedron; "
-                "others up to 60 evenly spread",
-                Rule::at_least_one},
+                "1 pole, 2 poles, 3 triangle, 4 tetrahedron, 6 octahedron, 12 icosahedron; others "
+                "evenly spread",
+                Rule::between(1, 60), Users(tips)},
           self.number_of_tips);
-    visit(Field{"tip_height", "length", "tips: height above the sphere", Rule::non_negative},
+    visit(Field{"tip_height", "length", "height above the sphere", Rule::non_negative, Users(tips)},
           self.tip_height);
-    visit(Field{"tip_width", "rad", "tips: angular width of a tip", Rule::positive},
+    visit(Field{"tip_width", "rad", "angular width of a tip", Rule::positive, Users(tips)},
           self.tip_width);
     visit(Field{"path", "-",
-                "file: closed triangulated surface, .off or .obj; relative to the current folder"},
+                "closed triangulated surface, .off or .obj; relative to the current folder",
+                Rule::any, Users(file)},
           self.path);
-    visit(Field{"flip", "-", "file: turn a surface that is inside out"}, self.flip);
+    visit(Field{"flip", "-", "turn a surface that is inside out", Rule::any, Users(file)},
+          self.flip);
   }
+  /// Refuses values that make no shape together, and shapes of more than 20 million nodes.
+  void check_together() const;
 };
 
 /// Builds a starting shape with outward orientation; all nodes, mid-edge nodes included, lie on:

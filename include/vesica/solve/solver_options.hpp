@@ -15,6 +15,31 @@ enum class Method { ida, semi_implicit, minimize };
 enum class Scheme { paper, variational };
 enum class NewtonMode { krylov, direct };
 
+}  // namespace vesica::solve
+
+namespace vesica {
+template <>
+struct EnumNames<solve::Method> {
+  using enum solve::Method;
+  static constexpr std::array<std::pair<solve::Method, std::string_view>, 3> names{
+      {{ida, "ida"}, {semi_implicit, "semi-implicit"}, {minimize, "minimize"}}};
+};
+template <>
+struct EnumNames<solve::Scheme> {
+  using enum solve::Scheme;
+  static constexpr std::array<std::pair<solve::Scheme, std::string_view>, 2> names{
+      {{paper, "paper"}, {variational, "variational"}}};
+};
+template <>
+struct EnumNames<solve::NewtonMode> {
+  using enum solve::NewtonMode;
+  static constexpr std::array<std::pair<solve::NewtonMode, std::string_view>, 2> names{
+      {{krylov, "krylov"}, {direct, "direct"}}};
+};
+}  // namespace vesica
+
+namespace vesica::solve {
+
 /// How the equations are solved. Times are in [length^4/energy]: the mobility of the gradient flow
 /// is 1.
 struct SolverOptions {
@@ -36,37 +61,46 @@ struct SolverOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
+    using enum Method;
     visit(Field{"method", "-",
                 "ida (adaptive flow), semi-implicit (the paper's own) or minimize (Ceres)"},
           self.method);
     visit(Field{"scheme", "-",
-                "ida: paper (weak form of Problem 3.1) or variational (gradient flow of the "
-                "discrete energy)"},
+                "paper (weak form of Problem 3.1) or variational (gradient flow of the discrete "
+                "energy)",
+                Rule::any, Users(ida)},
           self.scheme);
     visit(Field{"rtol", "-",
                 "error allowed in a step, relative to the diameter 2 R_c and to the range of c",
-                Rule::positive},
+                Rule::positive, Users(ida)},
           self.rtol);
     visit(Field{"atol", "R_c", "absolute error, added to it (for c: a pure number)",
-                Rule::non_negative},
+                Rule::non_negative, Users(ida)},
           self.atol);
-    visit(Field{"max_order", "-", "largest order of the BDF method, 1 to 5", Rule::at_least_one},
-          self.max_order);
+    visit(
+        Field{"max_order", "-", "largest order of the BDF method", Rule::between(1, 5), Users(ida)},
+        self.max_order);
     visit(Field{"initial_step", "length^4/energy", "first step; 0: chosen by IDA",
-                Rule::non_negative},
+                Rule::non_negative, Users(ida)},
           self.initial_step);
-    visit(Field{"max_step", "length^4/energy", "largest step", Rule::positive}, self.max_step);
-    visit(Field{"constraint_rate", "k/R_c^4",
-                "gamma of d/dt C + gamma C = 0, pulls constraints back", Rule::positive},
-          self.constraint_rate);
+    visit(Field{"max_step", "length^4/energy", "largest step", Rule::positive_or_infinite,
+                Users(ida)},
+          self.max_step);
+    visit(
+        Field{"constraint_rate", "k/R_c^4", "gamma of d/dt C + gamma C = 0, pulls constraints back",
+              Rule::positive, Users(ida)},
+        self.constraint_rate);
     visit(Field{"time_step", "length^4/energy",
-                "semi-implicit: fixed step, a number or \"(eps/30)^2\" with eps = interface_width",
-                Rule::positive},
+                "fixed step, a number or \"(eps/30)^2\" with eps = interface_width", Rule::positive,
+                Users(semi_implicit)},
           self.time_step);
     visit(Field{"tangential_fields", "-",
-                "semi-implicit: keep the fields beta_1, beta_2 of (3.4); false: eliminate them"},
+                "keep the fields beta_1, beta_2 of (3.4); false: eliminate them", Rule::any,
+                Users(semi_implicit)},
           self.tangential_fields);
-    visit(Field{"newton", "-", "krylov (GMRES, factors as preconditioner) or direct"}, self.newton);
+    visit(Field{"newton", "-", "krylov (GMRES, factors as preconditioner) or direct", Rule::any,
+                Users(ida)},
+          self.newton);
     visit(Field{"linear_solver", "-", "sparse factorisation: umfpack or klu"}, self.linear_solver);
     visit(Field{"final_constraint_solve", "-", "take the constraints to round-off at the end"},
           self.final_constraint_solve);
@@ -75,26 +109,8 @@ struct SolverOptions {
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }
+  /// Refuses what the method cannot do.
+  void check_together() const;
 };
 
 }  // namespace vesica::solve
-
-namespace vesica {
-template <>
-struct EnumNames<solve::Method> {
-  static constexpr std::array<std::pair<solve::Method, std::string_view>, 3> names{
-      {{solve::Method::ida, "ida"},
-       {solve::Method::semi_implicit, "semi-implicit"},
-       {solve::Method::minimize, "minimize"}}};
-};
-template <>
-struct EnumNames<solve::Scheme> {
-  static constexpr std::array<std::pair<solve::Scheme, std::string_view>, 2> names{
-      {{solve::Scheme::paper, "paper"}, {solve::Scheme::variational, "variational"}}};
-};
-template <>
-struct EnumNames<solve::NewtonMode> {
-  static constexpr std::array<std::pair<solve::NewtonMode, std::string_view>, 2> names{
-      {{solve::NewtonMode::krylov, "krylov"}, {solve::NewtonMode::direct, "direct"}}};
-};
-}  // namespace vesica

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "vesica/core/fields.hpp"
 #include "vesica/model/per_term.hpp"
 #include "vesica/problem/state.hpp"
 
@@ -11,27 +12,33 @@ namespace vesica::solve {
 /// Work done since the stepper was made.
 struct SolverCounts {
   long steps = 0;
-  long newton = 0;          ///< nonlinear (Newton) iterations
-  long krylov = 0;          ///< linear (GMRES) iterations
-  long residuals = 0;       ///< residual evaluations, those of difference quotients included
-  long jacobians = 0;       ///< Jacobian assemblies
-  long factorisations = 0;  ///< numerical factorisations
-  long failures = 0;        ///< failed error tests and failed Newton iterations together
+  long newton = 0;
+  long krylov = 0;
+  long residuals = 0;
+  long jacobians = 0;
+  long factorisations = 0;
+  long failures = 0;
 
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"steps", "-", "accepted steps"}, self.steps);
+    visit(Field{"newton", "-", "nonlinear (Newton) iterations"}, self.newton);
+    visit(Field{"krylov", "-", "linear (GMRES) iterations"}, self.krylov);
+    visit(Field{"residuals", "-", "residual evaluations, those of difference quotients included"},
+          self.residuals);
+    visit(Field{"jacobians", "-", "Jacobian assemblies"}, self.jacobians);
+    visit(Field{"factorisations", "-", "numerical factorisations"}, self.factorisations);
+    visit(Field{"failures", "-", "failed error tests and failed Newton iterations together"},
+          self.failures);
+  }
   SolverCounts& operator+=(const SolverCounts& more) {
-    steps += more.steps;
-    newton += more.newton;
-    krylov += more.krylov;
-    residuals += more.residuals;
-    jacobians += more.jacobians;
-    factorisations += more.factorisations;
-    failures += more.failures;
+    combine_fields(*this, more, [](long& count, long other) { count += other; });
     return *this;
   }
 };
 
-/// Wall-clock seconds by part, and processor seconds of all threads. relax() measures the latter
-/// around the calls of steppers and controllers, and adds controllers to the total.
+/// Seconds by part. relax() measures those of the processor around the calls of steppers and
+/// controllers, and adds controllers to the total.
 struct SolverSeconds {
   double processor = 0;
   double total = 0;
@@ -40,13 +47,17 @@ struct SolverSeconds {
   double factorisation = 0;
   double solve = 0;
 
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"total", "second", "wall clock"}, self.total);
+    visit(Field{"processor", "second", "processor time of all threads"}, self.processor);
+    visit(Field{"residual", "second", "wall clock in residuals"}, self.residual);
+    visit(Field{"jacobian", "second", "wall clock in Jacobian assemblies"}, self.jacobian);
+    visit(Field{"factorisation", "second", "wall clock in factorisations"}, self.factorisation);
+    visit(Field{"solve", "second", "wall clock in linear solves"}, self.solve);
+  }
   SolverSeconds& operator+=(const SolverSeconds& more) {
-    processor += more.processor;
-    total += more.total;
-    residual += more.residual;
-    jacobian += more.jacobian;
-    factorisation += more.factorisation;
-    solve += more.solve;
+    combine_fields(*this, more, [](double& seconds, double other) { seconds += other; });
     return *this;
   }
 };
@@ -63,6 +74,13 @@ struct PolishReport {
   int iterations = 0;   ///< Newton iterations; of the weak form: implicit steps
   double gradient = 0;  ///< |dL| / |dE|; of the weak form: ||v_nu|| over the norm of the pressure
   Curvature curvature;  ///< lowest of the discrete energy
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"iterations", "-", "Newton iterations"}, self.iterations);
+    visit(Field{"gradient", "-", "|dL| / |dE| or normal force over pressure"}, self.gradient);
+    visit(Field{"lowest_curvature", "1/time", "negative at a saddle"}, self.curvature.value);
+  }
 };
 
 enum class StepStatus { accepted, failed };
@@ -80,6 +98,14 @@ struct StepReport {
   SolverSeconds seconds;
   std::optional<PolishReport> polish;  ///< after a finish() that polished
   std::string reason;                  ///< for a failed step: call, code by name, and what to try
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor&& visit) {
+    visit(Field{"gradient", "-", "distance to the minimum"}, self.gradient);
+    visit(Field{"polish", "-", "what the polish found"}, self.polish);
+    visit(Field{"counts", "-", "work since the start"}, self.counts);
+    visit(Field{"seconds", "second", "time since the start"}, self.seconds);
+  }
 };
 
 /// Advances a State that it owns. One of the five abstract classes of the library.

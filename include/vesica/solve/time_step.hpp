@@ -15,6 +15,7 @@ struct TimeStep {
   [[nodiscard]] double resolved(double interface_width) const {
     return value.value_or(interface_width * interface_width / 900);
   }
+  [[nodiscard]] const std::optional<double>& parts() const { return value; }
   friend bool operator==(const TimeStep&, const TimeStep&) = default;
 };
 

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/json_reader.hpp"
+#include "flat_json.hpp"
 #include "program_test.hpp"
 #include "programs.hpp"
 
@@ -19,7 +19,7 @@ class RelaxTest : public test::ProgramTest {
   RelaxTest() { write("case.toml", deflated_case); }
   int relax(const std::string& arguments) { return run(program_relax, arguments); }
   [[nodiscard]] double verdict(const std::string& run, const std::string& key) const {
-    return io::JsonReader(folder_ / run / "verdict.json").number(key);
+    return test::flat_json(folder_ / run / "verdict.json").at(key);
   }
 };
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fake_run.hpp"
-#include "io/hdf5.hpp"
+#include "io/hdf5/writable_file.hpp"
 #include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/trajectory_writer.hpp"

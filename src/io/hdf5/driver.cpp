@@ -1,4 +1,4 @@
-#include "io/hdf5_driver.hpp"
+#include "io/hdf5/driver.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "io/hdf5.hpp"
+#include "io/hdf5/writable_file.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/hdf5_driver.hpp"
+#include "io/hdf5/driver.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io::hdf5 {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/hdf5.hpp"
+#include "io/hdf5/writable_file.hpp"
 
 namespace vesica::io::hdf5 {
 

@@ -1,4 +1,4 @@
-#include "io/hdf5_reader.hpp"
+#include "io/hdf5/readable_file.hpp"
 
 #include <fmt/format.h>
 #include <utility>
