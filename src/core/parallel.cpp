@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/held_signals.hpp"
+
 namespace vesica {
 
 int resolved_threads(int requested) {
@@ -19,6 +21,8 @@ void parallel_for(int count, int threads, const std::function<void(int, int)>& b
   const int parts = std::clamp(threads, 1, std::max(1, count));
   if (parts == 1) return body(0, count);
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(parts));
+  // The threads that TBB makes and keeps must never get them (linalg/metis_signals.hpp).
+  const HeldSignals held;
   tbb::parallel_for(0, parts, [&](int part) {
     try {
       const auto bound = [&](std::int64_t p) { return static_cast<int>(p * count / parts); };

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "io/trajectory_file.hpp"
-#include "vesica/io/run_folder.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/io/run_folder.hpp"
 
 namespace vesica::io {
 namespace {

@@ -69,12 +69,9 @@ VectorRows<Block> energy_rows(const ElementContext& context, const fem::ShapeVal
           energy_row<Block>(context, shape, output.z)};
 }
 
-template <int Block>
-void add_energy_point(const ElementContext& context, const EnergyElement& element,
-                      const fem::QuadraturePoint& point, fem::ElementMatrix<Block>& matrix) {
-  const auto& shape = point.shape;
-  const auto values = energy_point(element, shape);
-  DualInputs<EnergyDual> inputs;
+/// The fields of a point as inputs that are differentiated.
+EnergyPoint<EnergyDual> as_inputs(const EnergyPoint<double>& values,
+                                  DualInputs<EnergyDual>& inputs) {
   EnergyPoint<EnergyDual> in;
   in.x = inputs.vector(values.x);
   in.x_u = inputs.vector(values.x_u);
@@ -85,6 +82,16 @@ void add_energy_point(const ElementContext& context, const EnergyElement& elemen
   in.c = inputs.scalar(values.c);
   in.c_u = inputs.scalar(values.c_u);
   in.c_v = inputs.scalar(values.c_v);
+  return in;
+}
+
+template <int Block>
+void add_energy_point(const ElementContext& context, const EnergyElement& element,
+                      const fem::QuadraturePoint& point, fem::ElementMatrix<Block>& matrix) {
+  const auto& shape = point.shape;
+  const auto values = energy_point(element, shape);
+  DualInputs<EnergyDual> inputs;
+  const auto in = as_inputs(values, inputs);
   const auto velocity = inputs.vector(interpolate_nodes(element.velocity, shape.value));
   auto out = energy_point_gradient(context.physics, context.multipliers, in);
   add_flow_terms(context.physics, velocity, interpolate_nodes(element.c_rate, shape.value), in,

@@ -160,7 +160,7 @@ TEST(RunReader, DamagedFilesAreIoErrorsThatNameThem) {
        std::vector<std::tuple<std::string, nlohmann::json, std::string>>{
            {"/status", "well", "verdict.json: /status \"well\" is not known"},
            {"/reason", 1, "verdict.json: /reason must be a text"},
-           {"/energy", 1, "verdict.json: /energy/bending is missing"},
+           {"/mesh", 1, "verdict.json: /mesh/nodes is missing"},
            {"/shape/volume", "x", "verdict.json: /shape/volume must be a number or null"},
            {"/counts/steps", 1.5, "verdict.json: /counts/steps must be a whole number"},
            {"/domains/phase_1", 1.5, "verdict.json: /domains/phase_1 must be a whole number"},
@@ -168,7 +168,7 @@ TEST(RunReader, DamagedFilesAreIoErrorsThatNameThem) {
            {"/domains/areas/phase_1", {1}, "verdict.json: /domains/areas/phase_1/1 is missing"},
            {"/events", nullptr, "verdict.json: /events must be an array"},
            {"/events/0/what", 1, "verdict.json: /events/0/what must be a text"},
-           {"/polish/gradient", "x", "/polish/gradient must be a number or null"}})
+           {"/polish/iterations", 1.5, "/polish/iterations must be a whole number"}})
     EXPECT_NE(error_with(pointer, value).find(message), std::string::npos)
         << error_with(pointer, value);
   std::ofstream(folder.path() / "trajectory.h5") << "no HDF5";
