@@ -1,8 +1,8 @@
 #include "rigid_alignment.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <ceres/tiny_solver.h>
+
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +12,8 @@ namespace vesica::compare {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double least_distance = 1e-13;  // of the length
 
 /// A probe, what it sees, and which of the two points moves.
 struct Sight {
@@ -72,34 +73,67 @@ Misfit misfit_of(const std::vector<Sight>& sights, double length) {
   return {misfit.shape / weight, misfit.phase / weight};
 }
 
-Vector6 wrench(const Eigen::Vector3d& arm, const Eigen::Vector3d& force) {
-  Vector6 result;
-  result << force, arm.cross(force);
-  return result;
-}
-
-/// (H + damping * largest eigenvalue)^-1 g without the eigenvectors of nearly vanishing curvature.
-Vector6 damped_step(const Matrix6& curvature, const Vector6& gradient, double damping) {
-  constexpr double least_curvature = 1e-5;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(curvature);
-  const double largest = eigen.eigenvalues()[5];
-  Vector6 coefficients = eigen.eigenvectors().transpose() * gradient;
-  for (int i = 0; i < 6; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    coefficients[i] =
-        value > least_curvature * largest ? coefficients[i] / (value + damping * largest) : 0;
-  }
-  return eigen.eigenvectors() * coefficients;
+/// `motion` and then a step (translation / length, Gibbs' vector) about `centre`.
+RigidMotion moved(const RigidMotion& motion, const Vector6& step, const Eigen::Vector3d& centre,
+                  double length) {
+  const Eigen::Vector3d half = step.tail<3>() / 2;
+  const Eigen::Quaterniond turn(1, half.x(), half.y(), half.z());
+  const Eigen::Matrix3d rotation = turn.normalized().toRotationMatrix();
+  // rounding must not add up to a matrix that is no rotation
+  const Eigen::Quaterniond turned(Eigen::Matrix3d(rotation * motion.rotation));
+  return {turned.normalized().toRotationMatrix(),
+          rotation * (motion.translation - centre) + centre + length * step.head<3>()};
 }
 
 }  // namespace
 
-/// shape + phase_weight * phase after a step s = (translation / R_c, rotation vector) is about
-/// value - 2 gradient . s + s . curvature s.
-struct RigidAlignment::Linearised {
-  double value = 0;
-  Vector6 gradient = Vector6::Zero();
-  Matrix6 curvature = Matrix6::Zero();
+/// What ceres::TinySolver makes small: the roots of the parts of a misfit, at a step after `start`.
+struct RigidAlignment::Residuals {
+  using Scalar = double;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 6 };
+
+  const RigidAlignment& alignment;
+  const ProbeSets& probes;
+  const RigidMotion& start;
+  double phase_weight;
+
+  [[nodiscard]] int NumResiduals() const {
+    return static_cast<int>(2 * (probes.first.size() + probes.second.size()));
+  }
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const Vector6 step = Eigen::Map<const Vector6>(parameters);
+    const double length = alignment.length_;
+    const Eigen::Vector3d& centre = alignment.first_.centroid();
+    const Eigen::Vector3d pivot = centre + length * step.head<3>();
+    const Eigen::Vector3d gibbs = step.tail<3>();
+    const auto row_of = [&](const Sight& sight, const Eigen::Vector3d& force) {
+      const Eigen::Vector3d torque = (sight.moving - pivot).cross(force) / length;
+      Vector6 row;
+      row << force, (torque + torque.cross(gibbs) / 2) / (1 + gibbs.squaredNorm() / 4);
+      return row;
+    };
+    const auto sights = look_around(probes, alignment.first_, alignment.second_,
+                                    moved(start, step, centre, length));
+    double weight = 0;
+    for (const Sight& sight : sights) weight += sight.weight;
+    Eigen::Map<Eigen::MatrixXd> slopes(jacobian, jacobian ? NumResiduals() : 0, 6);
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      const Sight& sight = sights[i];
+      const double shape = std::sqrt(sight.weight / weight);
+      const double phase = std::sqrt(phase_weight) * shape;
+      const double gap = sight.gap.norm();
+      residuals[2 * i] = shape * gap / length;
+      residuals[2 * i + 1] = phase * sight.difference;
+      if (jacobian == nullptr) continue;
+      const auto k = static_cast<Eigen::Index>(2 * i);
+      const Eigen::Vector3d along =
+          gap > least_distance * length ? Eigen::Vector3d(sight.gap / gap) : sight.normal;
+      slopes.row(k) = -shape * row_of(sight, along);
+      slopes.row(k + 1) = phase * row_of(sight, length * sight.gradient);
+    }
+    return true;
+  }
 };
 
 RigidAlignment::RigidAlignment(const measure::SurfaceProbe& first,
@@ -112,67 +146,20 @@ Misfit RigidAlignment::misfit(const ProbeSets& probes, const RigidMotion& motion
   return misfit_of(look_around(probes, first_, second_, motion), length_);
 }
 
-RigidAlignment::Linearised RigidAlignment::linearised(const ProbeSets& probes,
-                                                      const RigidMotion& motion,
-                                                      double phase_weight) const {
-  const std::vector<Sight> sights = look_around(probes, first_, second_, motion);
-  const Misfit misfit = misfit_of(sights, length_);
-  Linearised result;
-  double weight = 0;
-  for (const Sight& sight : sights) {
-    const Eigen::Vector3d arm = (sight.moving - first_.centroid()) / length_;
-    const Vector6 along_normal = wrench(arm, sight.normal);
-    const Vector6 along_gradient = wrench(arm, length_ * sight.gradient);
-    weight += sight.weight;
-    result.gradient += sight.weight * (wrench(arm, sight.gap / length_) -
-                                       phase_weight * sight.difference * along_gradient);
-    result.curvature += sight.weight * (along_normal * along_normal.transpose() +
-                                        phase_weight * along_gradient * along_gradient.transpose());
-  }
-  result.value = misfit.shape + phase_weight * misfit.phase;
-  result.gradient /= weight;
-  result.curvature /= weight;
-  return result;
-}
-
-RigidMotion RigidAlignment::moved(const RigidMotion& motion, const Vector6& step) const {
-  const Eigen::Vector3d turn = step.tail<3>();
-  const double angle = turn.norm();
-  const Eigen::Matrix3d rotation = angle > 0
-                                       ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
-                                       : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  const Eigen::Vector3d& centre = first_.centroid();
-  // rounding must not add up to a matrix that is no rotation
-  const Eigen::Matrix3d turned =
-      Eigen::Quaterniond(Eigen::Matrix3d(rotation * motion.rotation)).normalized().matrix();
-  return {turned, rotation * (motion.translation - centre) + centre + length_ * step.head<3>()};
-}
-
-RigidMotion RigidAlignment::refined(const ProbeSets& probes, RigidMotion motion,
+RigidMotion RigidAlignment::refined(const ProbeSets& probes, const RigidMotion& motion,
                                     double phase_weight, int most_steps) const {
-  constexpr double largest_step = 0.5;
-  constexpr double least_step = 1e-13;
   constexpr double least_gain = 1e-10;
-  constexpr double largest_damping = 1e3;
-  Linearised current = linearised(probes, motion, phase_weight);
-  double damping = 0;
-  for (int i = 0; i < most_steps; ++i) {
-    Vector6 step = damped_step(current.curvature, current.gradient, damping);
-    step *= std::min(1.0, largest_step / std::max(step.norm(), least_step));
-    const double gain = 2 * step.dot(current.gradient) - step.dot(current.curvature * step);
-    if (step.norm() < least_step || gain < least_gain * current.value) break;
-    const RigidMotion trial = moved(motion, step);
-    const Linearised there = linearised(probes, trial, phase_weight);
-    if (there.value < current.value) {
-      motion = trial;
-      current = there;
-      damping = damping < 1e-6 ? 0 : damping / 10;
-    } else {
-      damping = std::max(1e-4, 10 * damping);
-      if (damping > largest_damping) break;
-    }
-  }
-  return motion;
+  const Misfit start = misfit(probes, motion);
+  ceres::TinySolver<Residuals> solver;
+  solver.options.max_num_iterations = most_steps;
+  solver.options.gradient_tolerance = 0;
+  solver.options.cost_threshold = 0;
+  solver.options.parameter_tolerance = 1e-13;
+  solver.options.function_tolerance =
+      least_distance * least_distance + least_gain * (start.shape + phase_weight * start.phase);
+  Vector6 step = Vector6::Zero();
+  solver.Solve({*this, probes, motion, phase_weight}, &step);
+  return moved(motion, step, first_.centroid(), length_);
 }
 
 }  // namespace vesica::compare

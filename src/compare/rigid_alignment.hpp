@@ -29,21 +29,14 @@ class RigidAlignment {
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] Misfit misfit(const ProbeSets& probes, const RigidMotion& motion) const;
 
-  /// Makes shape + phase_weight * phase smaller, starting from `motion`: Gauss-Newton on the
-  /// distances along the normals (point to plane) with the exact gradient, in the norm of
-  /// Levenberg and Marquardt. Motions that the misfit hardly feels (curvature below 1e-5 of the
-  /// largest) are left alone. Ends when a step falls below 1e-13, or promises less than 1e-10 of
-  /// the misfit.
-  [[nodiscard]] RigidMotion refined(const ProbeSets& probes, RigidMotion motion,
+  /// Makes shape + phase_weight * phase smaller, starting from `motion`: the method of Levenberg
+  /// and Marquardt on the distances, with their slopes along the lines to the closest points. Ends
+  /// when a step changes the misfit by less than 1e-26, or 1e-10 of the misfit at the start.
+  [[nodiscard]] RigidMotion refined(const ProbeSets& probes, const RigidMotion& motion,
                                     double phase_weight, int most_steps) const;
 
  private:
-  struct Linearised;
-
-  [[nodiscard]] Linearised linearised(const ProbeSets& probes, const RigidMotion& motion,
-                                      double phase_weight) const;
-  [[nodiscard]] RigidMotion moved(const RigidMotion& motion,
-                                  const Eigen::Matrix<double, 6, 1>& step) const;
+  struct Residuals;
 
   const measure::SurfaceProbe& first_;
   const measure::SurfaceProbe& second_;

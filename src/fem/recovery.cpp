@@ -6,14 +6,11 @@
 #include "vesica/core/parallel.hpp"
 #include "vesica/fem/block_assembly.hpp"
 #include "vesica/fem/mass_matrix.hpp"
-#include "vesica/fem/quadrature.hpp"
-#include "vesica/fem/surface_element.hpp"
+#include "vesica/fem/surface_integral.hpp"
 
 namespace vesica::fem {
 
 namespace {
-
-using mesh::QuadraticTriangle;
 
 constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -22,12 +19,6 @@ NodalTriple gather(const NodeGraph& graph, const std::vector<double>& local, int
   NodalTriple result(graph.num_nodes(), 3);
   gather_nodal(graph, local, threads, result);
   return result;
-}
-
-TangentFrame<double> frame_at(const mesh::Positions& positions, const QuadraticTriangle& triangle,
-                              const ShapeValues& shape) {
-  return tangent_frame(to_vec3(combine<3>(positions, triangle, shape.du)),
-                       to_vec3(combine<3>(positions, triangle, shape.dv)));
 }
 
 /// Element mass matrices (T, 36) and the right-hand sides int grad phi_i of kappa_hat (T, 6, 3).
@@ -45,19 +36,17 @@ FirstPass first_pass(const mesh::Triangulation& triangulation, const mesh::Posit
       const auto& triangle = triangulation.triangles()[at(t)];
       double* mass = &pass.mass[at(t) * 36];
       double* gradients = &pass.gradients[at(t) * 18];
-      for (const auto& point : triangle_rule()) {
-        const auto frame = frame_at(positions, triangle, point.shape);
-        const double weight = point.weight * frame.area_element;
+      for_each_point(triangle, positions, [&](const SurfaceSample& sample) {
         for (std::size_t i = 0; i < 6; ++i) {
-          const auto g =
-              surface_gradient(frame, weight * point.shape.du[i], weight * point.shape.dv[i]);
+          const auto g = surface_gradient(sample.frame, sample.weight * sample.shape.du[i],
+                                          sample.weight * sample.shape.dv[i]);
           gradients[3 * i] += g.x;
           gradients[3 * i + 1] += g.y;
           gradients[3 * i + 2] += g.z;
           for (std::size_t j = 0; j < 6; ++j)
-            mass[6 * i + j] += weight * point.shape.value[i] * point.shape.value[j];
+            mass[6 * i + j] += sample.weight * sample.shape.value[i] * sample.shape.value[j];
         }
-      }
+      });
     }
   });
   return pass;
@@ -79,15 +68,14 @@ SecondPass second_pass(const mesh::Triangulation& triangulation, const mesh::Pos
       const auto& triangle = triangulation.triangles()[at(t)];
       double* diagonal = &pass.diagonal[at(t) * 18];
       double* off_diagonal = &pass.off_diagonal[at(t) * 18];
-      for (const auto& point : triangle_rule()) {
-        const auto frame = frame_at(positions, triangle, point.shape);
-        const auto kappa = to_vec3(combine<3>(kappa_hat, triangle, point.shape.value));
-        const double weight = point.weight * frame.area_element;
-        const auto& n = frame.normal;
+      for_each_point(triangle, positions, [&](const SurfaceSample& sample) {
+        const auto kappa = to_vec3(combine<3>(kappa_hat, triangle, sample.shape.value));
+        const auto& n = sample.frame.normal;
         for (std::size_t i = 0; i < 6; ++i) {
           // z = kappa_hat phi_i - grad phi_i;  Q_ab phi_i integrates nu_a z_b
-          const auto gradient = surface_gradient(frame, point.shape.du[i], point.shape.dv[i]);
-          const auto z = weight * (point.shape.value[i] * kappa - gradient);
+          const auto gradient =
+              surface_gradient(sample.frame, sample.shape.du[i], sample.shape.dv[i]);
+          const auto z = sample.weight * (sample.shape.value[i] * kappa - gradient);
           diagonal[3 * i] += n.x * z.x;
           diagonal[3 * i + 1] += n.y * z.y;
           diagonal[3 * i + 2] += n.z * z.z;
@@ -95,7 +83,7 @@ SecondPass second_pass(const mesh::Triangulation& triangulation, const mesh::Pos
           off_diagonal[3 * i + 1] += 0.5 * (n.y * z.z + n.z * z.y);
           off_diagonal[3 * i + 2] += 0.5 * (n.x * z.z + n.z * z.x);
         }
-      }
+      });
     }
   });
   return pass;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "connected_components.hpp"
+#include "mesh/disjoint_sets.hpp"
 #include "vesica/fem/quadratic_triangle.hpp"
 #include "vesica/fem/surface_element.hpp"
 #include "vesica/mesh/local_nodes.hpp"
@@ -64,7 +65,9 @@ class Pieces {
   }
 
   [[nodiscard]] int num_loops() const {
-    return static_cast<int>(connected_components(num_lines_, links_).count);
+    mesh::DisjointSets loops(num_lines_);
+    for (const auto& [a, b] : links_) loops.join(a, b);
+    return static_cast<int>(loops.num_sets());
   }
 
   /// The lines of each loop in order; the last one is the first once more.
@@ -178,33 +181,6 @@ namespace {
 constexpr int num_samples = 256;
 constexpr double least_dip = 2e-3;
 
-/// Minimum of a function with one minimum in [low, high], by golden section.
-template <class Function>
-double smallest_value(const Function& function, double low, double high) {
-  constexpr int most_cuts = 40;
-  constexpr double golden = 0.6180339887498949;
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double value_a = function(a);
-  double value_b = function(b);
-  for (int i = 0; i < most_cuts; ++i) {
-    if (value_a < value_b) {
-      high = b;
-      b = a;
-      value_b = value_a;
-      a = high - golden * (high - low);
-      value_a = function(a);
-    } else {
-      low = a;
-      a = b;
-      value_a = value_b;
-      b = low + golden * (high - low);
-      value_b = function(b);
-    }
-  }
-  return std::min(value_a, value_b);
-}
-
 /// Index of the smallest one-loop sample that is a local minimum well below larger ones on both
 /// sides, or 0.
 std::size_t find_neck(const std::vector<CrossSection>& samples) {
@@ -240,7 +216,9 @@ std::optional<double> neck_radius(const problem::State& state, const LongAxis& a
   const std::size_t neck = find_neck(samples);
   if (neck == 0) return std::nullopt;
   const auto perimeter = [&](double at) { return sections.at(at).perimeter; };
-  return smallest_value(perimeter, height(neck - 1), height(neck + 1)) / (2 * std::numbers::pi);
+  const auto smallest = boost::math::tools::brent_find_minima(
+      perimeter, height(neck - 1), height(neck + 1), std::numeric_limits<double>::digits / 2);
+  return smallest.second / (2 * std::numbers::pi);
 }
 
 }  // namespace vesica::measure

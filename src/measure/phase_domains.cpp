@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "connected_components.hpp"
+#include "mesh/disjoint_sets.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
 #include "vesica/mesh/local_nodes.hpp"
@@ -169,24 +169,24 @@ struct NodeDomains {
 NodeDomains node_domains(const problem::State& state) {
   const auto& c = state.values.order_parameter;
   const auto value = [&](mesh::NodeIndex node) { return c[node]; };
-  std::vector<std::array<std::size_t, 2>> links;
+  const auto num_nodes = static_cast<std::size_t>(c.size());
+  mesh::DisjointSets sets(num_nodes);
   for (const auto& nodes : state.triangulation->triangles()) {
     for (const auto& corners : mesh::sub_triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto a = nodes[corners[i]];
         const auto b = nodes[corners[(i + 1) % 3]];
         if (value(a) * value(b) > 0)
-          links.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b)});
+          sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
       }
     }
   }
-  const auto components = connected_components(static_cast<std::size_t>(c.size()), links);
   NodeDomains domains;
-  domains.of_node.assign(components.of_vertex.size(), NodeDomains::none);
-  std::vector<std::size_t> number(components.count, NodeDomains::none);
-  for (std::size_t node = 0; node < domains.of_node.size(); ++node) {
+  domains.of_node.assign(num_nodes, NodeDomains::none);
+  std::vector<std::size_t> number(num_nodes, NodeDomains::none);
+  for (std::size_t node = 0; node < num_nodes; ++node) {
     if (c[static_cast<Eigen::Index>(node)] == 0) continue;
-    std::size_t& domain = number[components.of_vertex[node]];
+    std::size_t& domain = number[sets.find(node)];
     if (domain == NodeDomains::none) domain = domains.count++;
     domains.of_node[node] = domain;
   }

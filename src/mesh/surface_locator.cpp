@@ -12,14 +12,14 @@
 
 #include "box_tree.hpp"
 #include "curved_triangle.hpp"
-#include "quadratic_shape.hpp"
 #include "vertex_stars.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/mesh/quadratic_shape.hpp"
 
 namespace vesica::mesh {
 
 std::array<double, 6> shape_weights(const SurfaceLocation& location) {
-  return shape_values(location.u, location.v);
+  return shape_values(location.u, location.v).value;
 }
 
 struct SurfaceLocator::Index {

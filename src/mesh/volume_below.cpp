@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "quadratic_shape.hpp"
+#include "vesica/mesh/quadratic_shape.hpp"
 
 namespace vesica::mesh {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<double, 3> gauss_points = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
-Eigen::Vector3d combine(const ShapeFunctions& shape, const QuadraticTriangle& nodes,
+Eigen::Vector3d combine(const std::array<double, 6>& shape, const QuadraticTriangle& nodes,
                         const Positions& positions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < 6; ++i) sum += shape[i] * positions.row(nodes[i]).transpose();
@@ -28,9 +28,10 @@ double volume_below(const QuadraticTriangle& nodes, const Positions& positions) 
     for (std::size_t j = 0; j < 3; ++j) {
       const double u = gauss_points[i];
       const double v = (1 - u) * gauss_points[j];
-      const Eigen::Vector3d x = combine(shape_values(u, v), nodes, positions);
-      const Eigen::Vector3d x_u = combine(shape_u(u, v), nodes, positions);
-      const Eigen::Vector3d x_v = combine(shape_v(u, v), nodes, positions);
+      const ShapeValues shape = shape_values(u, v);
+      const Eigen::Vector3d x = combine(shape.value, nodes, positions);
+      const Eigen::Vector3d x_u = combine(shape.du, nodes, positions);
+      const Eigen::Vector3d x_v = combine(shape.dv, nodes, positions);
       integral += gauss_weights[i] * gauss_weights[j] * (1 - u) * x.dot(x_u.cross(x_v));
     }
   }

@@ -8,13 +8,14 @@
 
 namespace vesica::minimise {
 
-/// Surface and phase field as a point of a normal graph, with all that is known there.
+/// Surface and phase field as a point of a normal graph, with energy, constraints and their
+/// derivatives there.
 struct GraphPoint {
   Eigen::VectorXd unknowns;  ///< u = (d, c)
   EnergySample sample;
 };
 
-/// What stays the same during one inner minimisation.
+/// Problem of one inner minimisation, the same in all its iterations.
 struct InnerProblem {
   const problem::EnergyProblem& energy;
   const problem::NormalGraph& graph;
@@ -31,19 +32,20 @@ struct InnerProblem {
 /// at its maximum in each evaluation.
 class AugmentedEnergy {
  public:
-  /// Keeps references to both.
+  /// Makes the function. It keeps references to both arguments.
   AugmentedEnergy(const InnerProblem& problem, const GraphPoint& start);
 
-  /// Value at y and, unless null, the gradient. False for a point that is refused because it is
-  /// degenerate or too far away.
+  /// Computes the value at y and, unless null, the gradient. Returns false for a point that is
+  /// refused because it is degenerate or too far away.
   bool evaluate(const Eigen::VectorXd& y, double& value, double* gradient);
 
-  /// The last point that was not refused, and its y.
+  /// Returns the last point that was not refused; last_variables() is its y.
   [[nodiscard]] const GraphPoint& last() const { return last_; }
   [[nodiscard]] const Eigen::VectorXd& last_variables() const { return last_variables_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long refusals() const { return refusals_; }
-  /// Of evaluations (residual) and of solves with the factors of the metric (solve).
+  /// Returns the seconds of evaluations (residual) and of solves with the factors of the metric
+  /// (solve).
   [[nodiscard]] const solve::SolverSeconds& seconds() const { return seconds_; }
   [[nodiscard]] double value(const EnergySample& sample) const;
 

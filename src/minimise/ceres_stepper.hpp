@@ -26,7 +26,8 @@ namespace vesica::minimise {
 /// `failures` the trial points and inner minimisations that were thrown away.
 class CeresStepper final : public solve::Stepper {
  public:
-  /// Throws ConfigError for a target that changes in time, SolverError for a degenerate start.
+  /// Makes the stepper. Throws ConfigError for a target that changes in time, SolverError for a
+  /// degenerate start.
   CeresStepper(const solve::SolverOptions& options, const model::Model& model,
                problem::State start);
 
@@ -42,7 +43,7 @@ class CeresStepper final : public solve::Stepper {
   void set_damping(double) override {}
 
  private:
-  /// What went wrong; empty: nothing.
+  /// Tries a step and returns what went wrong; empty when it succeeded.
   [[nodiscard]] std::string try_step();
   void renew_reference();
   void linearise();
@@ -50,7 +51,7 @@ class CeresStepper final : public solve::Stepper {
   [[nodiscard]] InnerProblem inner_problem() const;
   [[nodiscard]] Eigen::VectorXd penalties() const;
   void choose_multipliers(const InnerProblem& last, double error_before);
-  /// What speaks against the result of an inner minimisation; empty: nothing.
+  /// Returns what speaks against the result of an inner minimisation; empty when nothing does.
   [[nodiscard]] std::string objection(const InnerResult& result);
   void accept(InnerResult result, const InnerProblem& inner);
   void care_for_mesh();
@@ -68,9 +69,9 @@ class CeresStepper final : public solve::Stepper {
   [[nodiscard]] mesh::Surface surface(const mesh::Positions& positions) const {
     return {state_.triangulation, positions};
   }
-  /// max|d| in R_c.
+  /// Returns max|d| in units of R_c.
   [[nodiscard]] double move_of(const Eigen::VectorXd& unknowns) const;
-  /// Distance to the minimum, in k_1^(1/2).
+  /// Returns the distance to the minimum, in k_1^(1/2).
   [[nodiscard]] double distance() const;
 
   solve::SolverOptions options_;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "vesica/fem/block_assembly.hpp"
-#include "vesica/fem/quadrature.hpp"
-#include "vesica/fem/surface_element.hpp"
+#include "vesica/fem/surface_integral.hpp"
 #include "vesica/model/two_phase.hpp"
 
 namespace vesica::minimise {
@@ -29,26 +28,21 @@ linalg::SparseMatrix assemble(const problem::EnergyProblem& problem,
   const auto& triangles = problem.triangulation().triangles();
   std::vector<double> local(triangles.size() * 36, 0.0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const auto& point : fem::triangle_rule()) {
-      const auto& shape = point.shape;
-      const auto frame =
-          fem::tangent_frame(fem::to_vec3(fem::combine<3>(positions, triangles[t], shape.du)),
-                             fem::to_vec3(fem::combine<3>(positions, triangles[t], shape.dv)));
-      const double c = order_parameter.size() > 0
-                           ? fem::combine<1>(order_parameter, triangles[t], shape.value)[0]
-                           : 1.0;
-      const Weights weights = weights_at(c);
-      const double area = point.weight * frame.area_element;
+    fem::for_each_point(triangles[t], positions, [&](const fem::SurfaceSample& sample) {
+      const auto& shape = sample.shape;
+      const Weights weights =
+          weights_at(order_parameter.size() > 0 ? fem::scalar_at(order_parameter, sample) : 1.0);
       std::array<Vec3<double>, 6> gradient;
       for (std::size_t i = 0; i < 6; ++i)
-        gradient[i] = fem::surface_gradient(frame, shape.du[i], shape.dv[i]);
+        gradient[i] = fem::surface_gradient(sample.frame, shape.du[i], shape.dv[i]);
       for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = 0; j < 6; ++j) {
-          local[36 * t + 6 * i + j] += area * (weights.stiffness * dot(gradient[i], gradient[j]) +
-                                               weights.mass * shape.value[i] * shape.value[j]);
+          local[36 * t + 6 * i + j] +=
+              sample.weight * (weights.stiffness * dot(gradient[i], gradient[j]) +
+                               weights.mass * shape.value[i] * shape.value[j]);
         }
       }
-    }
+    });
   }
   auto matrix = problem.graph().block_pattern(1);
   fem::gather_blocks<1>(problem.graph(), local, 1, matrix);

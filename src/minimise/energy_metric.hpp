@@ -26,11 +26,12 @@ class EnergyMetric {
   void factorise(const mesh::Positions& positions, const Eigen::VectorXd& order_parameter);
 
   [[nodiscard]] Eigen::Index size() const { return is_two_phase_ ? 2 * num_nodes_ : num_nodes_; }
-  /// P^(1/2) z, a change of the unknowns.
+  /// Returns P^(1/2) z, a change of the unknowns.
   [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& z) const;
-  /// P^(T/2) g of a derivative with respect to the unknowns: the derivative with respect to z.
+  /// Returns P^(T/2) g for a derivative g with respect to the unknowns: the derivative with respect
+  /// to z.
   [[nodiscard]] Eigen::VectorXd gather(const Eigen::VectorXd& gradient) const;
-  /// M^-1 g for both parts of a derivative: the L2 gradient.
+  /// Returns M^-1 g for both parts of a derivative g: the L2 gradient.
   [[nodiscard]] Eigen::VectorXd l2_gradient(const Eigen::VectorXd& gradient) const;
 
  private:

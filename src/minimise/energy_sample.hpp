@@ -18,43 +18,46 @@ struct EnergySample {
   problem::ConstraintEvaluation constraints;
 };
 
-/// Throws RecoverableError for a degenerate surface.
+/// Computes energy and constraints with their derivatives. Throws RecoverableError for a degenerate
+/// surface.
 [[nodiscard]] EnergySample sample_energy(const problem::EnergyProblem& problem,
                                          const mesh::Positions& positions,
                                          const Eigen::VectorXd& order_parameter);
 
-/// Derivative with respect to the unknowns u = (d, c) of a normal graph, shape (N) or (2N), from
-/// those with respect to the positions and, unless empty, the order parameter.
+/// Returns the derivative with respect to the unknowns u = (d, c) of a normal graph, shape (N) or
+/// (2N), from those with respect to the positions and, unless empty, the order parameter.
 [[nodiscard]] Eigen::VectorXd along_graph(const problem::NormalGraph& graph,
                                           const mesh::Positions& positions,
                                           const Eigen::VectorXd& order_parameter,
                                           bool is_two_phase);
 
-/// The two parts of the unknowns: x = X + d n, and c, shape (0) for a single phase.
+/// Returns the positions x = X + d n that belong to the unknowns u = (d, c).
 [[nodiscard]] mesh::Positions positions_of(const problem::NormalGraph& graph,
                                            const Eigen::VectorXd& unknowns);
+/// Returns the order parameter that is in the unknowns u = (d, c), shape (0) for a single phase.
 [[nodiscard]] Eigen::VectorXd order_parameter_of(const problem::NormalGraph& graph,
                                                  const Eigen::VectorXd& unknowns);
 
 /// The active constraints C_i = target_i of a case, in the order volume, area, phase difference.
 class ConstraintSet {
  public:
-  /// Throws ConfigError for a target that changes in time.
+  /// Makes the set. Throws ConfigError for a target that changes in time.
   ConstraintSet(const model::Model& model, const problem::Scales& scales);
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(active_.size()); }
-  /// C_i - target_i of the active constraints.
+  /// Returns C_i - target_i of the active constraints.
   [[nodiscard]] Eigen::VectorXd errors(const problem::ConstraintEvaluation& evaluation) const;
-  /// Units R_c^3, R_c^2, R_c^2 of the active constraints.
+  /// Returns the units R_c^3, R_c^2, R_c^2 of the active constraints.
   [[nodiscard]] const Eigen::VectorXd& units() const { return units_; }
-  /// Largest error relative to the target (of the phase difference: to the area).
+  /// Returns the largest error relative to the target (of the phase difference: to the area).
   [[nodiscard]] double largest_error(const problem::ConstraintEvaluation& evaluation) const;
   [[nodiscard]] std::string worst_name(const problem::ConstraintEvaluation& evaluation) const;
-  /// Derivatives with respect to the unknowns of a graph, a column a constraint.
+  /// Returns the derivatives with respect to the unknowns of a graph, one column for each
+  /// constraint.
   [[nodiscard]] Eigen::MatrixXd gradients(const problem::NormalGraph& graph,
                                           const problem::ConstraintEvaluation& evaluation,
                                           bool is_two_phase) const;
-  /// Derivative of E + sum lambda_i C_i with respect to the unknowns of a graph.
+  /// Returns the derivative of E + sum lambda_i C_i with respect to the unknowns of a graph.
   [[nodiscard]] Eigen::VectorXd lagrangian_gradient(const problem::NormalGraph& graph,
                                                     const EnergySample& sample,
                                                     const Eigen::VectorXd& multipliers,

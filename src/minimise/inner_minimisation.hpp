@@ -4,7 +4,7 @@
 
 namespace vesica::minimise {
 
-/// When an inner minimisation ends.
+/// Limits at which an inner minimisation ends.
 struct InnerLimits {
   int iterations = 20;
   double gradient = 0;  ///< of the augmented Lagrangian with respect to y, in the energy unit
@@ -20,8 +20,8 @@ struct InnerResult {
   solve::SolverSeconds seconds;
 };
 
-/// L-BFGS of `ceres::GradientProblemSolver` with a Wolfe line search, from y = 0 at `start`.
-/// Exceptions other than RecoverableError pass through.
+/// Minimises by L-BFGS of `ceres::GradientProblemSolver` with a Wolfe line search, from y = 0 at
+/// `start`. Exceptions other than RecoverableError pass through.
 [[nodiscard]] InnerResult minimise_inner(const InnerProblem& problem, const GraphPoint& start,
                                          const InnerLimits& limits);
 

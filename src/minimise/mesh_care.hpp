@@ -8,7 +8,7 @@
 
 namespace vesica::minimise {
 
-/// What is looked at in a mesh whose nodes move.
+/// Condition of a mesh whose nodes move: the numbers by which it is judged.
 struct MeshCondition {
   double quality = 0;        ///< (3.5)
   double area_ratio = 1;     ///< largest element over smallest
@@ -16,7 +16,7 @@ struct MeshCondition {
 };
 
 [[nodiscard]] MeshCondition mesh_condition(const mesh::Surface& surface);
-/// "quality 0.043, area ratio 310, smallest normal cosine -0.21".
+/// Returns the condition as text: "quality 0.043, area ratio 310, smallest normal cosine -0.21".
 [[nodiscard]] std::string describe(const MeshCondition& condition);
 
 /// Nodal fields after the nodes were moved along their surface.
@@ -31,13 +31,14 @@ class MeshCare {
  public:
   explicit MeshCare(const mesh::Surface& start);
 
-  /// No result may come from such a mesh: quality below 0.1, elements of very different size, or
-  /// folds.
+  /// Tells whether a mesh is so bad that no result may come from it: quality below 0.1, elements of
+  /// very different size, or folds.
   [[nodiscard]] bool is_degenerate(const MeshCondition& condition) const;
-  /// The mesh has become plainly worse since the start or the last redistribution.
+  /// Tells whether the mesh has become plainly worse since the start or the last redistribution.
   [[nodiscard]] bool is_worn(const MeshCondition& condition) const;
-  /// Moves the nodes; the order parameter is carried over with the quadratic elements. What comes
-  /// out is the mesh that wear is measured from, also where moving the nodes did not help.
+  /// Moves the nodes along the surface; the order parameter is interpolated with the quadratic
+  /// elements. Wear is measured from the resulting mesh from then on, also where moving the nodes
+  /// did not help.
   [[nodiscard]] MovedNodes redistribute(const mesh::Surface& surface,
                                         const Eigen::VectorXd& order_parameter);
 

@@ -11,13 +11,13 @@ namespace vesica::minimise {
 /// Constraints that depend on each other (volume and area of a sphere) share one direction.
 struct Slopes {
   Eigen::VectorXd energy;
-  Eigen::MatrixXd constraints;  ///< a column a constraint
+  Eigen::MatrixXd constraints;  ///< one column for each constraint
 
-  /// lambda that makes |energy + constraints lambda| smallest.
+  /// Returns the lambda that makes |energy + constraints lambda| smallest.
   [[nodiscard]] Eigen::VectorXd multipliers() const;
-  /// The shortest change of z that changes the constraints by `errors`, to first order.
+  /// Returns the shortest change of z that changes the constraints by `errors`, to first order.
   [[nodiscard]] Eigen::VectorXd change_for(const Eigen::VectorXd& errors) const;
-  /// sqrt(g^T P g) of g = dE + sum lambda_i dC_i: about sqrt(2 (E - E_min)) [energy^(1/2)].
+  /// Returns sqrt(g^T P g) of g = dE + sum lambda_i dC_i: about sqrt(2 (E - E_min)) [energy^(1/2)].
   [[nodiscard]] double distance(const Eigen::VectorXd& multipliers) const {
     return (energy + constraints * multipliers).norm();
   }
@@ -32,19 +32,20 @@ struct Slopes {
 /// large curvature left.
 class MinimiserCoordinates {
  public:
-  /// `metric` must outlive the coordinates and keep its factors.
+  /// Makes the coordinates. `metric` must outlive the coordinates and keep its factors.
   MinimiserCoordinates(const EnergyMetric& metric, const problem::NormalGraph& graph);
 
-  /// `weights`: rho of each constraint; `step`: length of a unit change of y.
+  /// Takes the large curvature of the penalty out of the variables. `weights`: rho of each
+  /// constraint; `step`: length of a unit change of y.
   void absorb(const Eigen::MatrixXd& constraint_slopes, const Eigen::VectorXd& weights,
               double step);
 
   [[nodiscard]] Eigen::Index size() const { return metric_->size(); }
   [[nodiscard]] Eigen::VectorXd change(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd pull_back(const Eigen::VectorXd& gradient) const;
-  /// G P^(T/2) g.
+  /// Returns G P^(T/2) g for a derivative g with respect to the unknowns.
   [[nodiscard]] Eigen::VectorXd slope(const Eigen::VectorXd& gradient) const;
-  /// P^(1/2) z.
+  /// Returns P^(1/2) z, a change of the unknowns.
   [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& z) const {
     return metric_->spread(z);
   }

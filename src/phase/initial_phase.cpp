@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <vector>
 
 #include "core/refuse.hpp"
 #include "phase_file.hpp"
@@ -12,7 +11,6 @@
 #include "vesica/core/error.hpp"
 #include "vesica/fem/surface_integral.hpp"
 #include "vesica/model/two_phase.hpp"
-#include "vesica/problem/state.hpp"
 
 namespace vesica::phase {
 namespace {
@@ -27,39 +25,22 @@ Eigen::VectorXd shifted(const PhaseLevels& levels, double shift) {
 /// Shift beyond which all levels are saturated: c = -1 or +1 in double precision.
 double saturation(PhaseProfile profile) { return profile == PhaseProfile::tanh ? 20.0 : 1.0; }
 
-/// int h(c) on a fixed surface, the sum that the constraint takes.
-class PhaseIntegral {
- public:
-  explicit PhaseIntegral(const mesh::Surface& surface) {
-    state_.triangulation = surface.triangulation;
-    state_.values.positions = surface.positions;
-    fem::for_each_point(
-        *state_.triangulation, state_.values.positions,
-        [&](const fem::SurfaceSample& sample) { weights_.push_back(sample.weight); });
-  }
-
-  [[nodiscard]] double operator()(const Eigen::VectorXd& c) const {
-    double sum = 0;
-    auto weight = weights_.begin();
-    for (const auto& triangle : state_.triangulation->triangles()) {
-      for (const auto& point : fem::triangle_rule()) {
-        sum +=
-            *weight++ * model::phase_indicator(fem::combine<1>(c, triangle, point.shape.value)[0]);
-      }
-    }
-    return sum;
-  }
-
- private:
-  problem::State state_;
-  std::vector<double> weights_;  ///< quadrature weight times area element, triangle by triangle
-};
+/// int h(c), the sum that the constraint takes.
+double phase_integral(const mesh::Surface& surface, const Eigen::VectorXd& c) {
+  double sum = 0;
+  fem::for_each_point(*surface.triangulation, surface.positions,
+                      [&](const fem::SurfaceSample& sample) {
+                        sum += sample.weight * model::phase_indicator(fem::scalar_at(c, sample));
+                      });
+  return sum;
+}
 
 /// Levels shifted so that int h(c) = target. Bisection to the last bit: the integral is continuous
 /// in the shift, but with quadratic shape functions not strictly monotone.
 Eigen::VectorXd match(const PhaseLevels& levels, const mesh::Surface& surface, double target) {
-  const PhaseIntegral integral(surface);
-  const auto error = [&](double shift) { return integral(shifted(levels, shift)) - target; };
+  const auto error = [&](double shift) {
+    return phase_integral(surface, shifted(levels, shift)) - target;
+  };
   double low = -levels.values.maxCoeff() - saturation(levels.profile);
   double high = -levels.values.minCoeff() + saturation(levels.profile);
   double error_low = error(low);

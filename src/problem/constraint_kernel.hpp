@@ -61,7 +61,7 @@ void for_each_constraint(const model::Physics& physics, const model::LocalPoint<
   });
 }
 
-/// Values of the constrained functionals over one element; with T = Dual<1>, also their rates.
+/// Computes the constrained functionals over one element; with T = Dual<1>, also their rates.
 template <class T>
 std::array<T, model::num_constraints> element_constraint_values(const ElementNodes<T>& nodes,
                                                                 const model::Physics& physics) {

@@ -22,7 +22,7 @@ struct ElementValues {
   std::array<std::array<double, 6>, 6> shape_operator{};
 };
 
-/// Everything the element loops read.
+/// All arguments that the element loops read.
 struct EquationContext {
   PointSettings point;
   const fem::NodalShapeOperator& shape_operator;
@@ -92,7 +92,7 @@ inline PointInputs<double> point_inputs(const ElementValues& element,
   return in;
 }
 
-/// Element residual of (b), (a), (d), added to `local` of shape (6, Block).
+/// Adds the element residual of (b), (a), (d) to `local`, shape (6, Block).
 template <int Block>
 void add_element_residual(const EquationContext& context, const ElementValues& element,
                           double* local) {
@@ -135,7 +135,7 @@ inline PointInputs<PointDual> dual_inputs(const PointInputs<double>& in) {
   return out;
 }
 
-/// Shape operator with the value of Q_h and the derivative of the elementwise one.
+/// Returns the shape operator with the value of Q_h and the derivative of the elementwise one.
 inline Sym3<PointDual> surrogate_shape_operator(const PointInputs<PointDual>& in,
                                                 const fem::TangentFrame<PointDual>& frame,
                                                 const Sym3<double>& recovered) {
@@ -208,8 +208,8 @@ void add_element_jacobian(const EquationContext& context, const JacobianWeights&
   }
 }
 
-/// Derivative of the element residual with respect to the multipliers: the variations of the
-/// constraints, added to `local` of shape (6, Block, number of constraints).
+/// Adds the derivative of the element residual with respect to the multipliers, the variations of
+/// the constraints, to `local`, shape (6, Block, number of constraints).
 template <int Block>
 void add_multiplier_columns(const model::Physics& physics, const ElementValues& element,
                             double* local) {

@@ -50,19 +50,19 @@ inline EnergyPoint<double> energy_point(const EnergyElement& element,
   return in;
 }
 
-/// Whether the Gauss curvature has to be integrated: 2 pi chi gives that of equal rigidities.
+/// Tells whether the Gauss curvature has to be integrated: 2 pi chi gives that of equal rigidities.
 inline bool has_gaussian_term(const model::Physics& physics) {
   return physics.is_two_phase && physics.material.gaussian_rigidity.difference() != 0;
 }
 
-/// Weights s_i = (k_g(c_i) - mean of the phases) of the Gauss curvature at the nodes. The mean
-/// multiplies 2 pi chi.
+/// Returns the weight s_i = (k_g(c_i) - mean of the phases) of the Gauss curvature at a node. The
+/// mean multiplies 2 pi chi.
 template <class T>
 T gaussian_weight(const model::Physics& physics, const T& c) {
   return (0.5 * physics.material.gaussian_rigidity.difference()) * model::phase_indicator(c);
 }
 
-/// ds/dc.
+/// Returns the derivative ds/dc of gaussian_weight.
 template <class T>
 T gaussian_weight_derivative(const model::Physics& physics, const T& c) {
   return (0.5 * physics.material.gaussian_rigidity.difference()) *

@@ -10,7 +10,7 @@
 
 namespace vesica::problem {
 
-/// What the distributional Gauss curvature of an element sees at a point: a weight s of the
+/// Arguments of the distributional Gauss curvature of an element at a point: a weight s of the
 /// curvature and the derivatives of the position along (u, v); also the derivative of an integrand
 /// with respect to them.
 template <class T>
@@ -32,7 +32,7 @@ struct GaussianTerm {
   GaussianPoint<T> gradient;
 };
 
-/// s K times the area element, K = det b / det g the Gauss curvature inside the element.
+/// Computes s K times the area element, K = det b / det g the Gauss curvature inside the element.
 template <class T>
 GaussianTerm<T> interior_curvature(const GaussianPoint<T>& in) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
@@ -57,8 +57,8 @@ GaussianTerm<T> interior_curvature(const GaussianPoint<T>& in) {
   return out;
 }
 
-/// s kappa_g times the line element along an edge whose parameter runs in the direction `d`,
-/// counter-clockwise: nu . (x_t x x_tt) / |x_t|^2.
+/// Computes s kappa_g times the line element along an edge whose parameter runs in the direction
+/// `d`, counter-clockwise: nu . (x_t x x_tt) / |x_t|^2.
 template <class T>
 GaussianTerm<T> edge_curvature(const GaussianPoint<T>& in, const Direction& d) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
@@ -84,8 +84,8 @@ GaussianTerm<T> edge_curvature(const GaussianPoint<T>& in, const Direction& d) {
   return out;
 }
 
-/// -s times the inner angle at a corner, between the tangents of its two edges: `a` of the next
-/// edge and `b` back along the previous one.
+/// Computes -s times the inner angle at a corner, between the tangents of its two edges: `a` of the
+/// next edge and `b` back along the previous one.
 template <class T>
 GaussianTerm<T> corner_angle(const GaussianPoint<T>& in, const Direction& a, const Direction& b) {
   const Vec3<T> first = a.u * in.x_u + a.v * in.x_v;
@@ -141,7 +141,7 @@ inline std::array<EdgePoint, 12> edge_rule() {
   return rule;
 }
 
-/// The corner with number `corner`: its shape functions and the directions of its edges.
+/// A corner of an element: its shape functions and the directions of its edges.
 struct CornerPoint {
   fem::ShapeValues shape;
   Direction next;

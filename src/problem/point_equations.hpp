@@ -19,7 +19,7 @@ struct PointInputs {
   double c_rate = 0;  ///< c' along the moving nodes
 };
 
-/// What else the equations at a point need; not differentiated.
+/// Parameters of the equations at a point, which are not differentiated.
 struct PointSettings {
   const model::Physics& physics;
   double damping = 0;
@@ -35,7 +35,7 @@ using PointOutputs = std::array<std::array<T, 3>, 5>;
 inline constexpr std::size_t velocity_row = 3;
 inline constexpr std::size_t phase_row = 4;
 
-/// eps omega, the weight of c' in (d) [length^2].
+/// Returns eps omega, the weight of c' in (d) [length^2].
 inline double phase_mobility(const model::Physics& physics) {
   return physics.material.interface_width * physics.material.kinetic_coefficient;
 }
@@ -68,7 +68,7 @@ void add_variation(const model::Physics& physics, const model::SurfacePoint<T>& 
   }
 }
 
-/// Variation of the energy plus multipliers times constraints: dF + sum lambda_i dC_i.
+/// Returns the variation of the energy plus multipliers times constraints: dF + sum lambda_i dC_i.
 template <class T>
 model::Variation<T> lagrangian_variation(const PointSettings& settings,
                                          const model::SurfacePoint<T>& point) {
@@ -94,7 +94,8 @@ void put_variation(const model::Variation<T>& v, const fem::TangentFrame<T>& fra
   out[phase_row] = {frame.area_element * v.s, dot(q, frame.dual_u), dot(q, frame.dual_v)};
 }
 
-/// Equations (a), (b) and (d) at a point, in the order of PointOutputs, all terms on one side:
+/// Computes the equations (a), (b) and (d) at a point, in the order of PointOutputs, all terms on
+/// one side:
 ///   (b)  int grad xi : grad x + kappa nu . xi + alpha xi . (I - nu nu^T) x'
 ///   (a)  int (x' . nu) chi + <dF + sum lambda_i dC_i, chi>
 ///   (d)  eps omega int c' phi + <dF + sum lambda_i dC_i, phi>

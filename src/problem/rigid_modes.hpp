@@ -9,7 +9,8 @@ namespace vesica::problem {
 using RigidModes = Eigen::Matrix<double, 6, 1>;
 using RigidGram = Eigen::Matrix<double, 6, 6>;
 
-/// nu and x cross nu: normal velocities of the translations and rotations about `centre`.
+/// Returns nu and x cross nu, the normal velocities of the translations and rotations about
+/// `centre`.
 inline RigidModes rigid_modes(const Vec3<double>& x, const Vec3<double>& centre,
                               const Vec3<double>& normal) {
   const auto moment = cross(x - centre, normal);
@@ -18,7 +19,7 @@ inline RigidModes rigid_modes(const Vec3<double>& x, const Vec3<double>& centre,
   return modes;
 }
 
-/// Centre of mass of the surface.
+/// Returns the centre of mass of the surface.
 inline Vec3<double> centroid(const mesh::Triangulation& triangulation,
                              const mesh::Positions& positions) {
   Vec3<double> sum;

@@ -13,10 +13,9 @@ using Profile = std::function<Eigen::Vector2d(double)>;
 
 /// How a row of glued cubes is laid onto a surface of revolution around the x axis.
 struct RevolutionOptions {
-  int num_cubes;    ///< n cubes in a row along x
-  int num_squares;  ///< m: each outer cube face has m x m squares, cut by one diagonal each
-  double
-      cap_angle;  ///< half opening angle [rad] of the end faces seen as on a unit sphere, (0, pi/2)
+  int num_cubes;     ///< n cubes in a row along x
+  int num_squares;   ///< m: each outer cube face has m x m squares, cut by one diagonal each
+  double cap_angle;  ///< half opening angle [rad] of the end faces on a unit sphere, (0, pi/2)
 };
 
 /// Surface with 4 (4 n + 2) m^2 + 2 nodes, all of them on the profile's surface. Every parameter is

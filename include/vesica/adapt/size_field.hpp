@@ -10,7 +10,7 @@
 
 namespace vesica::adapt {
 
-/// How long the edges of elements should be.
+/// Options that tell how long the edges of elements should be.
 struct SizeFieldOptions {
   double max_size = 0.3;
   double curvature_angle = 0.4;
@@ -35,18 +35,19 @@ struct SizeFieldOptions {
   }
 };
 
-/// Where phases meet; for a single-phase vesicle the order parameter has no entries.
+/// The order parameter and the width of the interface, which tell where phases meet; for a
+/// single-phase vesicle the order parameter has no entries.
 struct PhaseInterface {
   Eigen::VectorXd order_parameter;  ///< c, shape (N)
   double width = 0;                 ///< epsilon [length]
 
-  /// |c| < 0.95, which is tanh(1.83).
+  /// Tells whether a node lies in the interface: |c| < 0.95, which is tanh(1.83).
   [[nodiscard]] bool contains(Eigen::Index node) const {
     return order_parameter.size() > 0 && std::abs(order_parameter[node]) < 0.95;
   }
 };
 
-/// Wanted length of edges at each node [length], shape (N):
+/// Computes the wanted length of edges at each node [length], shape (N):
 ///
 ///     L = min(max_size, curvature_angle / |Q|, interface_size * width in the interface),
 ///
@@ -57,16 +58,17 @@ struct PhaseInterface {
                                          const PhaseInterface& phases,
                                          const SizeFieldOptions& options);
 
-/// Number of nodes of a mesh of equilateral quadratic triangles with these edges,
+/// Estimates the number of nodes of a mesh of equilateral quadratic triangles with these edges,
 /// 8 / sqrt(3) int 1 / L^2; local_remesh comes within 25 %.
 [[nodiscard]] double wanted_nodes(const mesh::Surface& surface, const Eigen::VectorXd& sizes);
 
-/// Largest quotient of the distance between two corners of a triangle and the mean of the sizes
-/// there; local_remesh leaves about 1.4.
+/// Returns the largest quotient of the distance between two corners of a triangle and the mean of
+/// the sizes there; local_remesh leaves about 1.4.
 [[nodiscard]] double longest_relative_edge(const mesh::Surface& surface,
                                            const Eigen::VectorXd& sizes);
 
-/// The sizes, all enlarged by the one factor with which at most `max_nodes` nodes are wanted.
+/// Returns the sizes, all enlarged by the one factor with which at most `max_nodes` nodes are
+/// wanted.
 [[nodiscard]] Eigen::VectorXd limited_sizes(const mesh::Surface& surface, Eigen::VectorXd sizes,
                                             double max_nodes);
 

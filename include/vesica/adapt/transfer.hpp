@@ -18,9 +18,11 @@ struct RestorableFields {
   Eigen::VectorXd order_parameter;  ///< c, shape (N), or (0) for a single-phase vesicle
 };
 
-/// Values of the integrals to be restored, such as V, A, int h(c); any number, always the same.
+/// Function that returns the integrals to be restored, such as V, A, int h(c); any number, always
+/// the same.
 using Integrals = std::function<Eigen::VectorXd(const RestorableFields& fields)>;
 
+/// Result of restore_integrals: the fields, and how well they meet the targets.
 struct Restored {
   RestorableFields fields;
   Eigen::VectorXd error;  ///< integrals - targets
@@ -36,16 +38,17 @@ struct NodalChange {
 };
 
 /// Makes directions of changes: for V, A and int h(c) the variations 1, -kappa and h'(c) do. The
-/// normal at a node is the mean of the normals of its triangles. Smooth fields: the mesh stays as
-/// it is, and no noise comes in.
+/// normal at a node is the mean of the normals of its triangles. The directions are smooth fields,
+/// so the mesh stays as it is and no noise comes in.
 [[nodiscard]] std::vector<RestorableFields> restoring_directions(
     const mesh::Surface& surface, const std::vector<NodalChange>& changes);
 
-/// Newton's method for the coefficients s of fields = start + sum_k s_k directions_k at which the
-/// integrals have their targets, with central differences for the derivatives along the directions.
-/// Where the directions do not suffice (nu and kappa nu on a sphere), the smallest change with the
-/// smallest error; then, or after 8 steps, `converged` is false. Empty fields of a direction are
-/// zero. Throws ConfigError when the integrals and the targets differ in number.
+/// Restores integrals by Newton's method for the coefficients s of fields = start + sum_k s_k
+/// directions_k at which the integrals have their targets, with central differences for the
+/// derivatives along the directions. Where the directions do not suffice (nu and kappa nu on a
+/// sphere), the smallest change with the smallest error; then, or after 8 steps, `converged` is
+/// false. Empty fields of a direction are zero. Throws ConfigError when the integrals and the
+/// targets differ in number.
 [[nodiscard]] Restored restore_integrals(const Integrals& integrals, const Eigen::VectorXd& targets,
                                          const std::vector<RestorableFields>& directions,
                                          const RestorableFields& start);

@@ -5,7 +5,7 @@
 
 namespace vesica::compare {
 
-/// `other`, moved by `motion`, described by the nodes of `owner`: node i of `owner` goes along its
+/// Describes `other`, moved by `motion`, by the nodes of `owner`: node i of `owner` goes along its
 /// normal until it meets the surface of `other`; c is interpolated there by quadratic shape
 /// functions, the multipliers are those of `other`. Rates and curvature are zero. Two equilibria
 /// can then be compared without the difference that the placement of their nodes makes. Throws

@@ -22,7 +22,7 @@
 
 namespace vesica::config {
 
-/// What a run writes and where.
+/// Options that tell what a run writes and where.
 struct OutputOptions {
   std::string directory = "out";
   int every_steps = 5;
@@ -43,13 +43,13 @@ struct OutputOptions {
 /// [solver].
 enum class Accuracy { draft, normal, reference };
 
-/// A table of the case file: its name, and one line for the template.
+/// A table of the case file: its name, and the line that the template has for it.
 struct Table {
   std::string_view name;
   std::string_view meaning;
 };
 
-/// Everything a case file says, with a default for what it leaves out.
+/// The configuration of a run: everything a case file says, with a default for what it leaves out.
 struct RunConfig {
   std::string title;
   shapes::ShapeOptions shape;
@@ -88,7 +88,8 @@ struct RunConfig {
 [[nodiscard]] RunConfig read_config(const std::string& path,
                                     std::span<const std::string> overrides);
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads the text of a case file and then `overrides`, as read_config does; `name` stands for the
+/// file in messages.
 [[nodiscard]] RunConfig read_config_text(std::string_view text, std::string_view name,
                                          std::span<const std::string> overrides);
 
@@ -96,11 +97,11 @@ struct RunConfig {
 /// `table.key = value: rule`.
 void check(const RunConfig& config);
 
-/// `message` with the place of the key, "table.key", that it begins with.
+/// Returns `message` with the place where the key "table.key" that it begins with was written.
 [[nodiscard]] std::string placed(const RunConfig& config, std::string_view message);
 
-/// What `call` returns. A ConfigError about a key of the case tells where the key was written, also
-/// when it is thrown by a part of the library that knows nothing of case files.
+/// Returns what `call()` returns. A ConfigError about a key of the case tells where the key was
+/// written, also when it is thrown by a part of the library that knows nothing of case files.
 template <class Call>
 auto with_places(const RunConfig& config, const Call& call) {
   try {
@@ -110,11 +111,12 @@ auto with_places(const RunConfig& config, const Call& call) {
   }
 }
 
-/// A case file with every table and option, its default, unit and meaning. Options are commented
-/// out (`#key = default`), so the file reads back as the default RunConfig.
+/// Writes a case file with every table and option, its default, unit and meaning. Options are
+/// commented out (`#key = default`), so the file reads back as the default RunConfig.
 void write_template(std::ostream& out);
 
-/// The effective configuration as a case file that reads back as the same RunConfig.
+/// Returns the effective configuration as the text of a case file that reads back as the same
+/// RunConfig.
 [[nodiscard]] std::string to_toml(const RunConfig& config);
 
 }  // namespace vesica::config

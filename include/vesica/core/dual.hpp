@@ -14,17 +14,17 @@ struct Dual {
   alignas(N % 8 == 0 ? 64 : 16) std::array<double, N> derivatives{};
 
   Dual() = default;
-  Dual(double constant)
-      : value(constant) {}  // implicit: constants mix with dual numbers in formulas
+  // Implicit, so that constants mix with dual numbers in formulas.
+  Dual(double constant) : value(constant) {}
 
-  /// The input number `index`, with derivative 1 in its own direction.
+  /// Makes the input number `index`, with derivative 1 in its own direction.
   [[nodiscard]] static Dual input(double value, int index) {
     Dual result(value);
     result.derivatives[static_cast<std::size_t>(index)] = 1;
     return result;
   }
 
-  /// f(this) by the chain rule, from f and f' at the value.
+  /// Returns f(this) by the chain rule, from f and f' at the value.
   [[nodiscard]] Dual chain(double f, double derivative) const {
     Dual result;
     result.value = f;
@@ -85,7 +85,7 @@ struct Dual {
   }
 };
 
-/// The value of a number, dual or not.
+/// Returns the value of a number, dual or not.
 [[nodiscard]] inline double value_of(double a) { return a; }
 template <int N>
 [[nodiscard]] double value_of(const Dual<N>& a) {

@@ -25,7 +25,7 @@ template <class E>
   return "?";
 }
 
-/// What every number of an options field has to satisfy: that it lies between two bounds. NaN
+/// Rule that every number of an options field has to satisfy: it lies between two bounds. NaN
 /// breaks every rule, infinity all but those that allow it. `check` refuses what breaks its rule,
 /// with the rule in the message.
 struct Rule {
@@ -93,7 +93,7 @@ struct Field {
   Users used_by{};
 };
 
-/// Visits nothing; tells whether a type can be visited.
+/// A visitor that does nothing; with it HasFields asks whether a type can be visited.
 struct IgnoreField {
   void operator()(const Field&, auto&&) const {}
 };

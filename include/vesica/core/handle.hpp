@@ -23,7 +23,8 @@ class Handle {
   }
 
   [[nodiscard]] T get() const { return object_; }
-  /// For C functions that create the object in place; valid only while nothing is owned.
+  /// Returns the address for C functions that create the object in place; valid only while nothing
+  /// is owned.
   [[nodiscard]] T* address() { return &object_; }
   [[nodiscard]] explicit operator bool() const { return object_ != T{}; }
   /// Gives the object away; the caller releases it.

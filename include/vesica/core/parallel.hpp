@@ -4,7 +4,8 @@
 
 namespace vesica {
 
-/// Number of threads to use when `requested` are asked for; 0 means all cores. At least 1.
+/// Returns the number of threads to use when `requested` are asked for; 0 means all cores. At least
+/// 1.
 [[nodiscard]] int resolved_threads(int requested);
 
 /// Calls body(begin, end) on `threads` contiguous parts of [0, count) at the same time, as far as

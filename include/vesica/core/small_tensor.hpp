@@ -52,7 +52,7 @@ inline Vec3<T> operator*(const Sym3<T>& m, const Vec3<T>& a) {
           m.xz * a.x + m.yz * a.y + m.zz * a.z};
 }
 
-/// Frobenius norm squared, |m|^2.
+/// Returns the square of the Frobenius norm, |m|^2.
 template <class T>
 inline T norm_squared(const Sym3<T>& m) {
   return m.xx * m.xx + m.yy * m.yy + m.zz * m.zz + 2.0 * (m.xy * m.xy + m.yz * m.yz + m.xz * m.xz);

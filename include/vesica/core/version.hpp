@@ -4,7 +4,7 @@
 
 namespace vesica {
 
-/// Version of the library that is running, "major.minor.patch".
+/// Returns the version of the library that is running, "major.minor.patch".
 [[nodiscard]] std::string_view version();
 
 }  // namespace vesica

@@ -11,12 +11,12 @@ namespace vesica::fem {
 /// Mass matrix of the quadratic elements on a surface, shape (N, N), on the pairs of a NodeGraph.
 using MassMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
-/// Gathers 6 x 6 element matrices, shape (T, 36).
+/// Gathers the 6 x 6 element matrices of all triangles, shape (T, 36), into the mass matrix.
 [[nodiscard]] MassMatrix gather_mass_matrix(const NodeGraph& graph,
                                             const std::vector<double>& element_matrices,
                                             int threads);
 
-/// Three values a node, shape (N, 3).
+/// Three values for each node, shape (N, 3).
 using NodalTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Solves M x = b for the three columns of `rhs`, which are shared among the threads, by conjugate

@@ -9,9 +9,9 @@
 
 namespace vesica::fem {
 
-/// Which nodes share a triangle, and which local entries of which triangles meet there. Assembly is
-/// a gather over it: every thread writes its own rows and the sum runs in a fixed order, so results
-/// do not depend on threads.
+/// A graph that tells which nodes share a triangle, and which local entries of which triangles meet
+/// there. Assembly is a gather over it: every thread writes its own rows and the sum runs in a
+/// fixed order, so results do not depend on threads.
 class NodeGraph {
  public:
   explicit NodeGraph(const mesh::Triangulation& triangulation);
@@ -19,19 +19,20 @@ class NodeGraph {
   [[nodiscard]] std::int32_t num_nodes() const {
     return static_cast<std::int32_t>(node_starts_.size()) - 1;
   }
-  /// Neighbours of a node, itself included, ascending.
+  /// Returns the neighbours of a node, itself included, ascending.
   [[nodiscard]] std::span<const std::int32_t> neighbours(std::int32_t node) const;
-  /// Index of the first (node, neighbour) pair of a node; pairs are numbered node by node.
+  /// Returns the index of the first (node, neighbour) pair of a node; pairs are numbered node by
+  /// node.
   [[nodiscard]] std::int64_t first_pair(std::int32_t node) const { return node_starts_[at(node)]; }
   [[nodiscard]] std::int64_t num_pairs() const { return node_starts_.back(); }
 
-  /// Triangle corners or mid-edges at a node, coded as triangle * 6 + local number.
+  /// Returns the triangle corners or mid-edges at a node, coded as triangle * 6 + local number.
   [[nodiscard]] std::span<const std::int32_t> incidences(std::int32_t node) const;
-  /// Local matrix entries of a pair (node, neighbour), coded as triangle * 36 + local(node) * 6 +
-  /// local(neighbour).
+  /// Returns the local matrix entries of a pair (node, neighbour), coded as triangle * 36 +
+  /// local(node) * 6 + local(neighbour).
   [[nodiscard]] std::span<const std::int32_t> contributions(std::int64_t pair) const;
 
-  /// Pattern of a matrix with dense blocks of `block_size` for each pair, values zero.
+  /// Makes the pattern of a matrix with dense blocks of `block_size` for each pair, values zero.
   [[nodiscard]] linalg::SparseMatrix block_pattern(int block_size) const;
 
  private:

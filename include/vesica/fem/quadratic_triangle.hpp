@@ -2,32 +2,21 @@
 
 #include <array>
 
+#include "vesica/mesh/quadratic_shape.hpp"
+
 namespace vesica::fem {
 
-/// Values and derivatives of the six shape functions at one point of the reference triangle (node
-/// order of mesh::QuadraticTriangle).
-struct ShapeValues {
-  std::array<double, 6> value{};
-  std::array<double, 6> du{};
-  std::array<double, 6> dv{};
-};
+using mesh::shape_values;
+using mesh::ShapeValues;
 
-/// Second derivatives, constant over the element.
+/// Second derivatives of the six shape functions, constant over the element.
 struct ShapeSecondDerivatives {
   std::array<double, 6> duu{};
   std::array<double, 6> duv{};
   std::array<double, 6> dvv{};
 };
 
-[[nodiscard]] constexpr ShapeValues shape_values(double u, double v) {
-  const double w = 1 - u - v;
-  ShapeValues s;
-  s.value = {w * (2 * w - 1), u * (2 * u - 1), v * (2 * v - 1), 4 * w * u, 4 * u * v, 4 * v * w};
-  s.du = {1 - 4 * w, 4 * u - 1, 0, 4 * (w - u), 4 * v, -4 * v};
-  s.dv = {1 - 4 * w, 0, 4 * v - 1, -4 * u, 4 * u, 4 * (w - v)};
-  return s;
-}
-
+/// Returns the second derivatives of the shape functions.
 [[nodiscard]] constexpr ShapeSecondDerivatives shape_second_derivatives() {
   return {{4, 4, 0, -8, 0, 0}, {4, 0, 0, -4, 4, -4}, {4, 0, 4, 0, 0, -8}};
 }

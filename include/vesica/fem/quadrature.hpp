@@ -14,9 +14,9 @@ struct QuadraturePoint {
   ShapeValues shape;
 };
 
-/// The one rule of the library: 7 points, exact for polynomials of degree 5 (Radon 1948),
-/// symmetric, positive weights. Residual, Jacobian, energies and constraints all use it: with
-/// different rules Newton's method fails.
+/// Returns the points of the one quadrature rule of the library: 7 points, exact for polynomials of
+/// degree 5 (Radon 1948), symmetric, positive weights. Residual, Jacobian, energies and constraints
+/// all use it: with different rules Newton's method fails.
 [[nodiscard]] std::span<const QuadraturePoint> triangle_rule();
 
 }  // namespace vesica::fem

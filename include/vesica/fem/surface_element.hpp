@@ -18,6 +18,7 @@ struct TangentFrame {
 };
 
 template <class T>
+/// Computes the metric data from the derivatives of x along the two parameters.
 TangentFrame<T> tangent_frame(const Vec3<T>& x_u, const Vec3<T>& x_v) {
   using std::sqrt;
   const Vec3<T> n = cross(x_u, x_v);
@@ -29,14 +30,14 @@ TangentFrame<T> tangent_frame(const Vec3<T>& x_u, const Vec3<T>& x_v) {
           inverse_squared * cross(n, x_u)};
 }
 
-/// Surface gradient from the derivatives along the two parameters: f_u x^u + f_v x^v.
+/// Returns the surface gradient from the derivatives along the two parameters: f_u x^u + f_v x^v.
 template <class S, class T>
 Vec3<T> surface_gradient(const TangentFrame<T>& frame, const S& f_u, const S& f_v) {
   return f_u * frame.dual_u + f_v * frame.dual_v;
 }
 
-/// Shape operator grad nu = -b_ij x^i (x) x^j of the element itself, b the second fundamental form;
-/// +1/R P on a sphere.
+/// Returns the shape operator grad nu = -b_ij x^i (x) x^j of the element itself, b the second
+/// fundamental form; +1/R P on a sphere.
 template <class T>
 Sym3<T> element_shape_operator(const TangentFrame<T>& frame, const Vec3<T>& x_uu,
                                const Vec3<T>& x_uv, const Vec3<T>& x_vv) {
@@ -52,7 +53,8 @@ Sym3<T> element_shape_operator(const TangentFrame<T>& frame, const Vec3<T>& x_uu
           -(p.x * a.y + q.x * b.y), -(p.y * a.z + q.y * b.z), -(p.x * a.z + q.x * b.z)};
 }
 
-/// sum_i weights[i] rows[i] over the six nodes of a triangle, for fields stored a row a node.
+/// Returns sum_i weights[i] field[i] over the six nodes of a triangle, for fields stored a row a
+/// node.
 template <int Columns, class Field>
 std::array<double, Columns> combine(const Field& field, const mesh::QuadraticTriangle& triangle,
                                     const std::array<double, 6>& weights) {

@@ -10,19 +10,19 @@
 
 namespace vesica::io {
 
-/// Two finished runs: named flow and minimize when one of them is a minimisation and
+/// Reads two finished runs. They are named flow and minimize when one of them is a minimisation and
 /// the other is not, else first and second. Throws what `read_run` throws.
 [[nodiscard]] std::vector<compare::ComparedRun> read_runs(const std::filesystem::path& first,
                                                           const std::filesystem::path& second);
 
-/// The JSON text of `comparison.json`; keys in docs/output.md.
+/// Returns the JSON text of `comparison.json`; docs/output.md lists its keys.
 [[nodiscard]] std::string to_json(const compare::Comparison& comparison);
 
-/// The runs side by side and what they found, for people.
+/// Prints the runs side by side, and what they found, as a table for people.
 void print_comparison(std::ostream& out, const compare::Comparison& comparison);
 
-/// Whether a comparison may be written to `folder`; nothing is created. Throws ConfigError when it
-/// holds one and `overwrite` is false.
+/// Checks that a comparison may be written to `folder`; nothing is created. Throws ConfigError when
+/// the folder holds one and `overwrite` is false.
 void check_comparison_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Writes to `folder`, which exists: `comparison.json`; for each run `profile_<name>.csv`, the cut
@@ -35,11 +35,11 @@ void write_comparison(const std::filesystem::path& folder, const compare::Compar
 /// to draw them later.
 [[nodiscard]] std::optional<std::string> draw_comparison(const std::filesystem::path& folder);
 
-/// The files of a comparison, one a line.
+/// Prints the files of a comparison, one a line.
 void print_comparison_files(std::ostream& out, const compare::Comparison& comparison,
                             const std::filesystem::path& folder);
 
-/// The text of `comparison.gp`.
+/// Returns the text of `comparison.gp`.
 [[nodiscard]] std::string plot_script(const compare::Comparison& comparison);
 
 }  // namespace vesica::io

@@ -10,7 +10,7 @@
 
 namespace vesica::io {
 
-/// What a run leaves in its folder.
+/// A run that has ended, as it is read from its folder.
 struct FinishedRun {
   config::RunConfig config;
   model::Model model;
@@ -24,7 +24,7 @@ struct FinishedRun {
 /// other, ConfigError for a wrong `case.toml`.
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
 
-/// The case of `config` with the final state of the run in `folder` as its start, rates and
+/// Makes the case of `config` with the final state of the run in `folder` as its start, rates and
 /// multipliers included; of a run that broke off (`trajectory.part.h5` alone) the last frame that
 /// is complete. Time goes on. "initial" is the start of the first run of such a chain. Throws what
 /// read_run throws, and ConfigError when a run is writing to the folder or when one has a phase
@@ -32,7 +32,7 @@ struct FinishedRun {
 [[nodiscard]] setup::Case resumed_case(const config::RunConfig& config,
                                        const std::filesystem::path& folder);
 
-/// The energy history of a run that has ended. Throws IoError.
+/// Reads the energy history of a run that has ended. Throws IoError.
 [[nodiscard]] compare::EnergyHistory read_history(const std::filesystem::path& folder);
 
 }  // namespace vesica::io

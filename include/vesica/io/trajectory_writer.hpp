@@ -10,10 +10,10 @@
 
 namespace vesica::io {
 
-/// Writes `trajectory.h5`, the record of a run (layout: docs/output.md), and `trajectory.xdmf`,
-/// which lets ParaView open it. While the run goes on they are called `trajectory.part.h5` and
-/// `trajectory.part.xdmf` and are complete up to the last frame; finish() gives them their names,
-/// so an older run in the folder stays whole until then.
+/// An observer that writes `trajectory.h5`, the record of a run (layout: docs/output.md), and
+/// `trajectory.xdmf`, which lets ParaView open it. While the run goes on they are called
+/// `trajectory.part.h5` and `trajectory.part.xdmf` and are complete up to the last frame; finish()
+/// gives them their names, so an older run in the folder stays whole until then.
 class TrajectoryWriter final : public relax::Observer {
  public:
   /// Makes `trajectory.part.h5` in `folder`, which exists, and holds its FolderLock. Throws
@@ -22,14 +22,15 @@ class TrajectoryWriter final : public relax::Observer {
                    const setup::Case& vesicle);
   ~TrajectoryWriter() override;
 
-  /// A row of the time series; a frame for step 0 and every `output.every_steps` steps. Throws
-  /// IoError, after which nothing more is written.
+  /// Writes a row of the time series; and a frame for step 0 and every `output.every_steps` steps.
+  /// Throws IoError, after which nothing more is written.
   void observe(const relax::StepView& view) override;
-  /// A frame on the new mesh, which adds its connectivity. Throws IoError.
+  /// Writes a frame on the new mesh, which adds its connectivity. Throws IoError.
   void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) override;
-  /// Kept in the file with its step and time. Throws IoError.
+  /// Writes the event with its step and time. Throws IoError.
   void happened(const relax::StepView& view, const relax::Event& event) override;
-  /// The final frame, the outcome, and the names of a finished run. Throws IoError.
+  /// Writes the final frame and the outcome, and gives the files the names of a finished run.
+  /// Throws IoError.
   void finish(const relax::StepView& view, const relax::Outcome& outcome) override;
 
  private:

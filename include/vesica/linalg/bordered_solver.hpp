@@ -19,6 +19,7 @@ struct BorderedMatrix {
   Eigen::MatrixXd corner;  ///< may be empty: zero
 
   [[nodiscard]] Eigen::Index size() const { return columns.rows() + columns.cols(); }
+  /// Returns A x, of length n + m.
   [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
 };
 
@@ -26,12 +27,13 @@ struct BorderedMatrix {
 /// the factors.
 class BorderedSolver {
  public:
-  /// The pattern of `matrix.block` is analysed here, once.
+  /// Makes the solver and analyses the pattern of `matrix.block`, once.
   BorderedSolver(DirectSolverKind kind, const BorderedMatrix& matrix, int block_size);
 
-  /// Throws RecoverableError when K or the border is singular.
+  /// Factorises a matrix of the same pattern. Throws RecoverableError when K or the border is
+  /// singular.
   void factorise(const BorderedMatrix& matrix);
-  /// x = A^-1 b, both of length n + m.
+  /// Returns x = A^-1 b, both of length n + m.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:

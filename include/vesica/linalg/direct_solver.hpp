@@ -11,6 +11,7 @@
 
 namespace vesica::linalg {
 
+/// Library that factorises the sparse matrices.
 enum class DirectSolverKind { umfpack, klu };
 
 #ifdef VESICA_WITHOUT_UMFPACK
@@ -19,8 +20,8 @@ inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::klu;
 inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::umfpack;
 #endif
 
-/// Sparse LU. The pattern is analysed once, at construction; one of the five abstract classes of
-/// the library.
+/// Sparse LU factorisation. The pattern is analysed once, at construction; one of the five abstract
+/// classes of the library.
 class DirectSolver {
  public:
   DirectSolver() = default;
@@ -28,9 +29,9 @@ class DirectSolver {
   DirectSolver& operator=(const DirectSolver&) = delete;
   virtual ~DirectSolver() = default;
 
-  /// Numerical factorisation of a matrix with the pattern given at construction.
-  /// Throws RecoverableError when the matrix is singular or holds a NaN, SolverError when the
-  /// library refuses.
+  /// Computes the factors of a matrix with the pattern given at construction. Throws
+  /// RecoverableError when the matrix is singular or holds a NaN, SolverError when the library
+  /// refuses.
   virtual void factorise(const SparseMatrix& matrix) = 0;
   /// Solves A x = b with the last factors; `b` and `x` may not overlap.
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;

@@ -4,7 +4,8 @@
 
 namespace vesica::linalg {
 
-/// Versions of the sparse solvers this library was compiled with, as in "UMFPACK 5.7.9, KLU 1.3.8".
+/// Returns the versions of the sparse solvers this library was compiled with, as in "UMFPACK 5.7.9,
+/// KLU 1.3.8".
 [[nodiscard]] std::string suitesparse_versions();
 
 }  // namespace vesica::linalg

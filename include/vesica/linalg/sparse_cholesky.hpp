@@ -12,20 +12,27 @@ namespace vesica::linalg {
 /// it is a change of variables that turns A into the identity. The pattern is analysed once.
 class SparseCholesky {
  public:
-  /// `pattern` is that of all matrices to come; its values do not matter.
+  /// Makes the factorisation for all matrices with the pattern of `pattern`, whose values do not
+  /// matter.
   explicit SparseCholesky(const SparseMatrix& pattern);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// Reads the lower triangle. Throws RecoverableError when the matrix is not positive definite.
+  /// Computes the factors; reads the lower triangle. Throws RecoverableError when the matrix is not
+  /// positive definite.
   void factorise(const SparseMatrix& matrix);
 
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;                ///< A^-1 b
-  [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& y) const;             ///< C y
-  [[nodiscard]] Eigen::VectorXd multiply_transposed(const Eigen::VectorXd& x) const;  ///< C^T x
-  [[nodiscard]] Eigen::VectorXd solve_factor(const Eigen::VectorXd& b) const;         ///< C^-1 b
-  [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& y) const;     ///< C^-T y
+  /// Returns A^-1 b.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// Returns C y.
+  [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& y) const;
+  /// Returns C^T x.
+  [[nodiscard]] Eigen::VectorXd multiply_transposed(const Eigen::VectorXd& x) const;
+  /// Returns C^-1 b.
+  [[nodiscard]] Eigen::VectorXd solve_factor(const Eigen::VectorXd& b) const;
+  /// Returns C^-T y.
+  [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& y) const;
 
  private:
   struct Factors;

@@ -9,10 +9,11 @@
 
 namespace vesica::measure {
 
-/// L2 norms of the velocity over the surface [length^2/time].
+/// L2 norms of the velocity v of the nodes over the surface [length^2/time]. nu is the outward unit
+/// normal.
 struct VelocityNorms {
   double normal = 0;             ///< ||v . nu||
-  double normal_rigid_free = 0;  ///< the same after the best-fit rigid motion is taken away
+  double normal_rigid_free = 0;  ///< ||v . nu|| without the best-fit rigid motion
   double tangential = 0;         ///< ||v - (v . nu) nu||
 
   /// Returns the norm of the normal velocity of the best-fit rigid motion.
@@ -32,20 +33,21 @@ struct VelocityNorms {
   }
 };
 
-/// What is measured after every accepted step.
+/// Holds what is measured after every accepted step: energy, constrained functionals and their
+/// errors, velocity, mesh quality and the domains of the phases.
 struct Diagnostics {
   model::EnergyParts energy;
   model::Measures measures;  ///< the constrained functionals
-  model::PerConstraint
-      constraint_errors;  ///< relative: (C - target) / scale, scale = |target| (area for the phase)
+  /// Relative errors (C - target) / scale; the scale is |target|, or the area for the phase.
+  model::PerConstraint constraint_errors;
   VelocityNorms velocity;
-  double quality = 0;
-  std::vector<PhaseDomain> domains;  ///< as phase_domains()
+  double quality = 0;                ///< mesh quality (3.5)
+  std::vector<PhaseDomain> domains;  ///< those that phase_domains() finds
 
   /// Returns R_c = sqrt(A / 4 pi) (4.2) [length].
   [[nodiscard]] double characteristic_radius() const;
 
-  /// All but the velocity, which results give over R_c.
+  /// Visits all measured values except the velocity, which results give divided by R_c.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     visit(Field{"energy/total", "energy", "sum of the parts"}, self.energy.total());
@@ -60,8 +62,8 @@ struct Diagnostics {
   }
 };
 
-/// Dimensionless numbers of Section 4 and lengths of the shape; what is not defined for it is
-/// absent.
+/// Dimensionless numbers of Section 4 of the paper, and lengths of the shape. A number is absent
+/// where the vesicle does not have it, as the neck radius of a sphere.
 struct ShapeNumbers {
   double characteristic_radius = 0;
   double reduced_volume = 0;
@@ -95,18 +97,22 @@ struct ShapeNumbers {
   }
 };
 
-/// Fields at the nodes for pictures, shape (N) or (N, 3).
+/// Fields at the nodes for pictures, arrays of shape (N) or (N, 3).
 struct NodalFields {
   Eigen::VectorXd normal_velocity;  ///< v . nu [length/time]
-  Eigen::VectorXd
-      bending_energy_density;  ///< k_kappa(c)/2 (kappa - kappa_s(c))^2 [energy/length^2]
-  mesh::Positions
-      normals;  ///< unit outward normals, area-weighted mean of the elements around a node
+  /// k_kappa(c)/2 (kappa - kappa_s(c))^2 [energy/length^2].
+  Eigen::VectorXd bending_energy_density;
+  /// Unit outward normals, area-weighted mean of the elements around a node.
+  mesh::Positions normals;
 };
 
-/// With the material and the targets at `state.time`.
+/// Measures a state. The material and the targets of the constraints are those at `state.time`.
+/// Throws RecoverableError when the shape operator of a degenerate surface cannot be recovered.
 [[nodiscard]] Diagnostics measure(const model::Model& model, const problem::State& state);
+/// Computes the dimensionless numbers and the lengths of a state, with the material at
+/// `state.time`.
 [[nodiscard]] ShapeNumbers shape_numbers(const model::Model& model, const problem::State& state);
+/// Computes the fields for pictures at the nodes of a state, with the material at `state.time`.
 [[nodiscard]] NodalFields nodal_fields(const model::Model& model, const problem::State& state);
 
 }  // namespace vesica::measure

@@ -13,8 +13,8 @@ struct PhaseDomain {
   int phase = 1;
   double area = 0;             ///< [length^2]
   double boundary_length = 0;  ///< of the curves c = 0 around it; 0 for the whole surface [length]
-  Eigen::Vector3d centroid =
-      Eigen::Vector3d::Zero();  ///< int x / area, as a rule off the surface [length]
+  /// Centroid int x / area, as a rule not on the surface [length].
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
@@ -25,12 +25,14 @@ struct PhaseDomain {
   }
 };
 
-/// All domains, phase 1 first and the larger ones first; none for a single-phase vesicle. Nodes
-/// with c of one sign belong together when they are neighbours in a sub-triangle of an element; a
-/// single node makes a domain. The curve c = 0 is followed in the quadratic c on the quadratic
-/// surface: area and length fall with the fourth power of the mesh size or nearly.
+/// Returns all domains of both phases, those of phase 1 first, and within a phase the larger ones
+/// first; none for a single-phase vesicle. Nodes with c of one sign belong together when they are
+/// neighbours in a sub-triangle of an element; a single node makes a domain. The curve c = 0 is
+/// followed in the quadratic c on the quadratic surface: area and length fall with the fourth power
+/// of the mesh size or nearly.
 [[nodiscard]] std::vector<PhaseDomain> phase_domains(const problem::State& state);
 
+/// Counts the domains of a phase, 1 or 2.
 [[nodiscard]] int num_domains(const std::vector<PhaseDomain>& domains, int phase);
 
 }  // namespace vesica::measure

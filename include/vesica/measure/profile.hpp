@@ -7,7 +7,7 @@
 
 namespace vesica::measure {
 
-/// A plane with two directions in it; all three vectors of length one are orthogonal.
+/// A plane through `origin` that is spanned by two orthogonal unit vectors.
 struct ProfilePlane {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [length]
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();
@@ -24,13 +24,13 @@ struct ProfilePoint {
 /// A closed curve in which the plane cuts the surface; the last point is the first once more.
 using ProfileLoop = std::vector<ProfilePoint>;
 
-/// The plane through the centroid of the surface that holds its long axis (`along`) and, of the
-/// directions orthogonal to it, that of largest variance.
+/// Returns the plane through the centroid of the surface that holds its long axis (`along`) and, of
+/// the directions orthogonal to it, that of largest variance.
 [[nodiscard]] ProfilePlane profile_plane(const problem::State& state);
 
-/// The cut of the surface by the plane: corners on the edges of the quadratic elements and of their
-/// sub-triangles, and, where the phases meet, points with order parameter exactly 0. Empty when the
-/// plane misses the surface.
+/// Cuts the surface by the plane and returns the closed curves. Their points are corners on the
+/// edges of the quadratic elements and of their sub-triangles, and, where the phases meet, points
+/// with order parameter exactly 0. Empty when the plane misses the surface.
 [[nodiscard]] std::vector<ProfileLoop> profile(const problem::State& state,
                                                const ProfilePlane& plane);
 

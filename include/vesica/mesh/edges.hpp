@@ -8,7 +8,7 @@
 
 namespace vesica::mesh {
 
-/// Two corner nodes, the lower index first.
+/// An edge as its two corner nodes, the lower index first.
 using Edge = std::array<NodeIndex, 2>;
 
 /// A triangulation by corners whose edges have become nodes: edge `e` has mid-edge node

@@ -17,12 +17,12 @@ inline constexpr std::array<std::array<double, 2>, 6> node_parameters = {
 inline constexpr std::array<std::array<std::size_t, 3>, 4> sub_triangles = {
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
-/// Where three local nodes of an element are.
+/// Returns the positions of three local nodes of an element [length].
 [[nodiscard]] std::array<Eigen::Vector3d, 3> sub_triangle(const QuadraticTriangle& nodes,
                                                           const std::array<std::size_t, 3>& local,
                                                           const Positions& positions);
 
-/// Normal times twice the area.
+/// Returns the normal of a flat triangle, of the length of twice its area [length^2].
 [[nodiscard]] Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners);
 
 }  // namespace vesica::mesh

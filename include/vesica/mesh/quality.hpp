@@ -11,32 +11,34 @@ namespace vesica::mesh {
 // "Sub-triangles" are the four flat triangles between neighbouring nodes of a quadratic triangle:
 // (0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5). Positions have shape (num_nodes, 3).
 
-/// Smallest sine of the inner angles of a flat triangle; 0 without area.
+/// Returns the smallest sine of the inner angles of a flat triangle; 0 without area.
 [[nodiscard]] double smallest_sine(const std::array<Eigen::Vector3d, 3>& corners);
 
-/// q = min over sub-triangles of the sine of their inner angles, (3.5); in (0, sqrt(3)/2].
+/// Returns q = min over sub-triangles of the sine of their inner angles, (3.5); in (0, sqrt(3)/2].
 /// 0 when a sub-triangle has no area.
 [[nodiscard]] double quality(const Triangulation& triangulation, const Positions& positions);
 
-/// Smallest cosine of the angle between the flat normals of two neighbouring sub-triangles, inside
-/// a triangle and across the edges between triangles; in [-1, 1]. Near -1 for a fold, which (3.5)
-/// does not see; -1 when a sub-triangle has no area.
+/// Returns the smallest cosine of the angle between the flat normals of two neighbouring
+/// sub-triangles, inside a triangle and across the edges between triangles; in [-1, 1]. Near -1 for
+/// a fold, which (3.5) does not see; -1 when a sub-triangle has no area.
 [[nodiscard]] double smallest_normal_cosine(const Triangulation& triangulation,
                                             const Positions& positions);
 
-/// Longest and mean distance between two corners of one triangle [length].
+/// Returns the longest distance between two corners of one triangle [length].
 [[nodiscard]] double longest_edge(const Triangulation& triangulation, const Positions& positions);
+/// Returns the mean distance between two corners of one triangle [length].
 [[nodiscard]] double mean_edge(const Triangulation& triangulation, const Positions& positions);
 
-/// Area of the four sub-triangles of each triangle [length^2], shape (num_triangles).
+/// Returns the area of the four sub-triangles together of each triangle [length^2], shape
+/// (num_triangles).
 [[nodiscard]] std::vector<double> element_areas(const Triangulation& triangulation,
                                                 const Positions& positions);
 
-/// Largest element area over the smallest, >= 1; infinite when an element has no area.
+/// Returns the largest element area over the smallest, >= 1; infinite when an element has no area.
 [[nodiscard]] double area_ratio(const Triangulation& triangulation, const Positions& positions);
 
-/// Volume enclosed by the quadratic surface [length^3], 1/3 int x . nu: exact up to rounding,
-/// positive for outward orientation.
+/// Returns the volume enclosed by the quadratic surface [length^3], 1/3 int x . nu: exact up to
+/// rounding, positive for outward orientation.
 [[nodiscard]] double enclosed_volume(const Triangulation& triangulation,
                                      const Positions& positions);
 

@@ -20,11 +20,11 @@ struct SurfaceLocation {
   double distance = 0;                              ///< from the point that was asked for [length]
 };
 
-/// Values of the six quadratic shape functions at a location.
+/// Returns the values of the six quadratic shape functions at a location.
 [[nodiscard]] std::array<double, 6> shape_weights(const SurfaceLocation& location);
 
-/// sum_i phi_i(u, v) field_i for a nodal field, a row a node; a column vector of the field's
-/// columns.
+/// Interpolates a nodal field, which has a row for each node, at a location: returns sum_i phi_i(u,
+/// v) field_i as a column vector with an entry for each column of the field.
 template <class Field>
 [[nodiscard]] Eigen::Matrix<double, Field::ColsAtCompileTime, 1> interpolate(
     const Triangulation& triangulation, const SurfaceLocation& location,
@@ -39,7 +39,7 @@ template <class Field>
   return sum;
 }
 
-/// The same for many locations, a row each.
+/// Interpolates a nodal field at many locations; the result has a row for each.
 template <class Field>
 [[nodiscard]] typename Field::PlainObject interpolate(const Triangulation& triangulation,
                                                       std::span<const SurfaceLocation> locations,
@@ -57,17 +57,18 @@ template <class Field>
 /// threads are safe.
 class SurfaceLocator {
  public:
-  /// Throws ConfigError when there is not one finite position for each node.
+  /// Makes the locator of a surface. Throws ConfigError when there is not one finite position for
+  /// each node.
   SurfaceLocator(std::shared_ptr<const Triangulation> triangulation, Positions positions);
 
-  /// Closest point of the curved surface to `point`. On a triangle so strongly curved that the
-  /// distance has several local minima it is the one next to the triangle's closest node. Throws
-  /// ConfigError when `point` is not finite.
+  /// Finds the closest point of the curved surface to `point`. On a triangle so strongly curved
+  /// that the distance has several local minima it is the one next to the triangle's closest node.
+  /// Throws ConfigError when `point` is not finite.
   [[nodiscard]] SurfaceLocation closest(const Eigen::Vector3d& point) const;
 
-  /// The same among the triangles whose normal at their closest point makes an angle below 90
-  /// degrees with `normal` (any length): a neck or a fold has two sheets near each other. Without
-  /// such a triangle the plain closest point.
+  /// Finds the closest point among the triangles whose normal at their closest point makes an angle
+  /// below 90 degrees with `normal` (any length): a neck or a fold has two sheets near each other.
+  /// Without such a triangle the plain closest point.
   [[nodiscard]] SurfaceLocation closest(const Eigen::Vector3d& point,
                                         const Eigen::Vector3d& normal) const;
 
@@ -77,10 +78,10 @@ class SurfaceLocator {
   [[nodiscard]] SurfaceLocation closest_from(const SurfaceLocation& start,
                                              const Eigen::Vector3d& point) const;
 
-  /// Outward unit normal x_u x x_v / |x_u x x_v| of the curved triangle.
+  /// Returns the outward unit normal x_u x x_v / |x_u x x_v| of the curved triangle.
   [[nodiscard]] Eigen::Vector3d normal(const SurfaceLocation& location) const;
 
-  /// The free functions of this name on this triangulation.
+  /// Calls mesh::interpolate with this triangulation.
   template <class Locations, class Field>
   [[nodiscard]] auto interpolate(const Locations& locations,
                                  const Eigen::MatrixBase<Field>& field) const {

@@ -30,10 +30,10 @@ using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Connectivity of a closed, oriented surface of six-node triangles. Immutable; knows no positions.
 class Triangulation {
  public:
-  /// Throws ConfigError naming the first offending triangle or edge when a node index is out of
-  /// range or unused, a triangle repeats a node, an edge has not exactly two triangles, its two
-  /// triangles are oriented inconsistently or disagree on the mid-edge node, or the triangles
-  /// around a vertex do not form one fan.
+  /// Makes the connectivity. Throws ConfigError naming the first offending triangle or edge when a
+  /// node index is out of range or unused, a triangle repeats a node, an edge has not exactly two
+  /// triangles, its two triangles are oriented inconsistently or disagree on the mid-edge node, or
+  /// the triangles around a vertex do not form one fan.
   Triangulation(std::vector<QuadraticTriangle> triangles, NodeIndex num_nodes);
 
   [[nodiscard]] NodeIndex num_nodes() const { return num_nodes_; }
@@ -41,16 +41,16 @@ class Triangulation {
     return static_cast<NodeIndex>(triangles_.size());
   }
   [[nodiscard]] std::span<const QuadraticTriangle> triangles() const { return triangles_; }
-  /// Number of corner nodes (the others are mid-edge nodes, one an edge).
+  /// Returns the number of corner nodes (the others are mid-edge nodes, one an edge).
   [[nodiscard]] NodeIndex num_vertices() const { return num_vertices_; }
   [[nodiscard]] NodeIndex num_edges() const { return num_nodes_ - num_vertices_; }
-  /// Number of connected components.
+  /// Returns the number of connected components.
   [[nodiscard]] int num_components() const { return num_components_; }
-  /// V - E + F = 2 (components - genus).
+  /// Returns V - E + F = 2 (components - genus).
   [[nodiscard]] int euler_characteristic() const {
     return num_vertices_ - num_edges() + num_triangles();
   }
-  /// Number of handles, of all components together.
+  /// Returns the number of handles, of all components together.
   [[nodiscard]] int genus() const { return num_components_ - euler_characteristic() / 2; }
 
  private:
@@ -60,7 +60,7 @@ class Triangulation {
   int num_components_ = 0;
 };
 
-/// A triangulation and where its nodes are.
+/// A surface: a triangulation and the positions of its nodes.
 struct Surface {
   std::shared_ptr<const Triangulation> triangulation;
   Positions positions;

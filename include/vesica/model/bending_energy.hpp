@@ -18,8 +18,8 @@ struct BendingEnergy {
     return 0.5 * interpolate(m.bending_rigidity, p.order_parameter) * difference * difference;
   }
 
-  /// (2.6a), with int Delta(k (kappa - kappa_s)) w integrated by parts into b = -grad(k (kappa -
-  /// kappa_s)).
+  /// Returns the first variation (2.6a), with int Delta(k (kappa - kappa_s)) w integrated by parts
+  /// into b = -grad(k (kappa - kappa_s)).
   template <class T>
   static Variation<T> variation(const Material& m, const SurfacePoint<T>& p) {
     const T& c = p.order_parameter;

@@ -9,18 +9,18 @@
 
 namespace vesica::model {
 
-/// What a case says of one constraint: a number or schedule, "initial" (what the start has), or
-/// "free" (no constraint).
+/// Target of one constraint as a case gives it: a number or schedule, "initial" (what the start
+/// has), or "free" (no constraint).
 struct Target {
   TargetKind kind = TargetKind::initial;
   Schedule schedule{};
-  bool begins_at_start = false;  ///< the first value of the schedule is what the start has
+  bool begins_at_start = false;  ///< the first value of the schedule is that of the start
   [[nodiscard]] const Schedule& parts() const { return schedule; }
   friend bool operator==(const Target&, const Target&) = default;
 };
 
-/// What a case file that says nothing of the constraints means: "initial", or what a constraint
-/// declares as `default_target`.
+/// Returns the targets of a case file that says nothing of the constraints: "initial", or what a
+/// constraint declares as `default_target`.
 [[nodiscard]] inline PerTerm<Constraints, Target> default_targets() {
   PerTerm<Constraints, Target> targets;
   for_each_term<Constraints>([&]<class Constraint>() {
@@ -30,7 +30,8 @@ struct Target {
   return targets;
 }
 
-/// Constraints (2.1), (2.4), in the units of the case or in the reduced numbers of Section 4.
+/// Targets of the constraints (2.1), (2.4), in the units of the case or in the reduced numbers of
+/// Section 4.
 struct ConstraintOptions {
   PerTerm<Constraints, Target> targets = default_targets();
   std::optional<double> reduced_volume{};
@@ -50,7 +51,7 @@ struct ConstraintOptions {
         Field{"phase_fraction", "-", "instead of phase_difference: x_r = A_2 / A", Rule::fraction},
         self.phase_fraction);
   }
-  /// Refuses a quantity that is given twice.
+  /// Refuses a quantity that is given both as a target and as a reduced number. Throws ConfigError.
   void check_together() const;
 };
 

@@ -18,7 +18,8 @@ struct GaussianEnergy {
     return interpolate(m.gaussian_rigidity, p.order_parameter) * gaussian_curvature(p);
   }
 
-  /// (2.6b), integrated by parts. Zero for equal rigidities: the energy is then topological.
+  /// Returns the first variation (2.6b), integrated by parts. It is zero for equal rigidities: the
+  /// energy is then topological.
   template <class T>
   static Variation<T> variation(const Material& m, const SurfacePoint<T>& p) {
     if (m.gaussian_rigidity.phase_1 == m.gaussian_rigidity.phase_2) return {};

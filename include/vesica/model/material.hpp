@@ -16,7 +16,7 @@ struct PhasePair {
   friend bool operator==(const PhasePair&, const PhasePair&) = default;
 };
 
-/// The same where it may change in time.
+/// A material constant of each phase that may change in time.
 struct PhaseSchedules {
   Schedule phase_1;
   Schedule phase_2;
@@ -39,7 +39,8 @@ struct Material {
   double kinetic_coefficient = 0.1;           ///< omega [length]
 };
 
-/// Material of a case: constants or schedules, some of them in reduced numbers.
+/// Material of a case: constants or quantities that change in time, some of them in reduced
+/// numbers.
 struct MaterialOptions {
   PhaseSchedules bending_rigidity{1.0, 1.0};
   PhaseSchedules spontaneous_curvature{0.0, 0.0};
@@ -52,7 +53,8 @@ struct MaterialOptions {
   std::optional<double> rigidity_ratio{};
   std::optional<double> saddle_splay_difference{};
 
-  /// Does not allocate. Reduced numbers must have been resolved.
+  /// Returns the material at a time. Reduced numbers must have been resolved by
+  /// `resolved_material`. Does not allocate.
   [[nodiscard]] Material at(double time) const {
     return {bending_rigidity.at(time),      spontaneous_curvature.at(time),
             gaussian_rigidity.at(time),     surface_tension.at(time),
@@ -99,7 +101,7 @@ struct MaterialOptions {
                 "Delta_g = (k_g,1 - k_g,2) / k_1; sets k_g of phase 1, k_g,2 = 0"},
           self.saddle_splay_difference);
   }
-  /// Refuses a quantity that is given twice.
+  /// Refuses a quantity that is given both in units and as a reduced number. Throws ConfigError.
   void check_together() const;
 };
 

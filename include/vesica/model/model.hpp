@@ -14,14 +14,15 @@ namespace vesica::model {
 /// Targets of the active constraints; an absent one leaves its quantity free.
 using Targets = PerTerm<Constraints, std::optional<Schedule>>;
 
-/// The terms of the energy at one time.
+/// The material at one time, and whether there is a phase field: all that decides which terms take
+/// part.
 struct Physics {
   Material material;
   bool is_two_phase = true;
 };
 
-/// Whether a term takes part: those of the phase field only where there is one, and those that can
-/// tell only where they are present.
+/// Tells whether a term takes part: a term that needs the phase field does so only where there is
+/// one, and a term with `is_present(material)` only where that is true.
 template <class Term>
 [[nodiscard]] bool takes_part(const Physics& physics) {
   if (Term::needs_phase_field && !physics.is_two_phase) return false;
@@ -32,19 +33,21 @@ template <class Term>
   }
 }
 
-/// Which physics: the material, whether there is a phase field, and the constraints. Material and
-/// targets may change in time.
+/// The model of a vesicle: its material, whether it has a phase field, and its constraints.
+/// Material and targets may change in time.
 struct Model {
   MaterialOptions material;
   bool is_two_phase = true;
   Targets targets;
 
+  /// Returns the physics at a time.
   [[nodiscard]] Physics at(double time) const { return {material.at(time), is_two_phase}; }
-  /// The first time after `time` at which a material parameter or a target has a kink or jumps;
-  /// infinity when there is none.
+  /// Returns the first time after `time` at which a material parameter or a target has a kink or
+  /// jumps; infinity when there is none.
   [[nodiscard]] double next_kink(double time) const;
+  /// Tells whether a material parameter or a target jumps at `time`.
   [[nodiscard]] bool jumps_at(double time) const;
-  /// The last kink or jump; minus infinity when nothing changes.
+  /// Returns the time of the last kink or jump; minus infinity when nothing changes.
   [[nodiscard]] double rests_after() const;
 };
 
@@ -55,11 +58,11 @@ struct NamedSchedule {
   const Schedule& schedule;
 };
 
-/// All schedules of material and targets; absent targets are left out.
+/// Returns all schedules of material and targets; absent targets are left out.
 [[nodiscard]] std::vector<NamedSchedule> schedules_of(const Model& model);
 
-/// What the error of a constraint is measured by: the modulus of its target, or the scale that it
-/// declares because its target may be zero. `area` is that of the surface.
+/// Returns the scale that divides the error of a constraint: the modulus of its target, or the
+/// scale that it declares because its target may be zero. `area` is that of the surface.
 template <class Constraint>
 [[nodiscard]] double error_scale(double target, double area) {
   if constexpr (requires { Constraint::error_scale(area); }) {
@@ -69,8 +72,8 @@ template <class Constraint>
   }
 }
 
-/// Places in `Constraints` of those that have a target, ascending; the phase difference counts only
-/// where there is a phase field.
+/// Returns the places in `Constraints` of the constraints that have a target, ascending. The phase
+/// difference counts only where there is a phase field.
 [[nodiscard]] inline std::vector<int> active_constraints(const Model& model) {
   std::vector<int> active;
   std::size_t place = 0;

@@ -16,7 +16,7 @@ template <class List, class Value>
 struct PerTerm {
   std::array<Value, std::tuple_size_v<List>> values{};
 
-  /// The value of one term, as in `multipliers.of<Volume>()`.
+  /// Returns the value of one term, as in `multipliers.of<Volume>()`.
   template <class Term>
   [[nodiscard]] Value& of() {
     static_assert(place_of<List, Term> < std::tuple_size_v<List>, "no term of this list");
@@ -55,20 +55,23 @@ struct EnergyParts : PerTerm<Energies, std::optional<double>> {
   }
 };
 
-/// One value for each constraint, absent for one that is left free: multipliers, with the signs of
-/// (1.7a), dF/dV = -volume: volume [energy/length^3], area and phase [energy/length^2]; errors.
+/// One value for each constraint, absent for a constraint that is left free. Multipliers have the
+/// signs of (1.7a), so that dF/dV = -volume; that of the volume is in [energy/length^3], those of
+/// area and phase in [energy/length^2]. Relative errors are kept in it too.
 using PerConstraint = PerTerm<Constraints, std::optional<double>>;
 
 /// Values of the constrained functionals; the phase difference is absent without a phase field.
 struct Measures : PerTerm<Constraints, std::optional<double>> {
-  [[nodiscard]] double volume() const { return *of<Volume>(); }  ///< [length^3]
-  [[nodiscard]] double area() const { return *of<Area>(); }      ///< [length^2]
-  /// int h(c) [length^2], which tends to A_1 - A_2.
+  /// Returns the enclosed volume [length^3].
+  [[nodiscard]] double volume() const { return *of<Volume>(); }
+  /// Returns the area of the surface [length^2].
+  [[nodiscard]] double area() const { return *of<Area>(); }
+  /// Returns int h(c) [length^2], which tends to A_1 - A_2.
   [[nodiscard]] const std::optional<double>& phase_difference() const {
     return of<PhaseDifference>();
   }
 
-  /// As PerTerm::fields, under the keys that the quantities have in a case file.
+  /// Visits the values under the keys that the quantities have in a case file.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     std::size_t place = 0;

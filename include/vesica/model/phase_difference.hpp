@@ -16,7 +16,7 @@ struct PhaseDifference {
   static constexpr int length_power = 2;
   static constexpr bool needs_phase_field = true;
 
-  /// Its target may be zero.
+  /// Returns the scale of its error, the area, since its target may be zero.
   static double error_scale(double area) { return area; }
 
   template <class T, class Factor>

@@ -11,6 +11,7 @@
 
 namespace vesica::model {
 
+/// How a schedule goes from point to point: linearly, or in stages that jump.
 enum class ScheduleKind { linear, stages };
 
 /// A quantity that may change in time: a constant; linear through points (t_i, v_i); or stages, v_0
@@ -21,38 +22,43 @@ enum class ScheduleKind { linear, stages };
 /// step that ends at a kink lies in one piece, and the next one begins in the next.
 class Schedule {
  public:
-  /// A constant. Implicit, so that a number can stand where a schedule may.
+  /// Makes a constant. Implicit, so that a number can stand where a schedule may.
   Schedule(double value = 0) : values_{value} {}  // NOLINT(google-explicit-constructor)
 
-  /// `from` until `start`, linear in between, `to` from `end` on. Throws ConfigError as `points`.
+  /// Makes a ramp: `from` until `start`, linear in between, `to` from `end` on. Throws ConfigError
+  /// as `points`.
   [[nodiscard]] static Schedule ramp(double from, double to, double start, double end);
-  /// Through the points (times[i], values[i]). Throws ConfigError with `broken_rule`.
+  /// Makes the schedule of the points (times[i], values[i]). Throws ConfigError with `broken_rule`.
   [[nodiscard]] static Schedule points(ScheduleKind kind, std::vector<double> times,
                                        std::vector<double> values);
-  /// What is wrong with points, as in "must have ascending times"; empty when nothing is.
+  /// Returns the rule that points break, as in "must have ascending times"; empty when nothing is.
   [[nodiscard]] static std::string_view broken_rule(std::span<const double> times,
                                                     std::span<const double> values);
 
+  /// Returns the value at a time.
   [[nodiscard]] double value(double time) const;
-  [[nodiscard]] double rate(double time) const;  ///< [per time]; 0 in stages
+  /// Returns the derivative in time at a time; 0 in stages.
+  [[nodiscard]] double rate(double time) const;
   [[nodiscard]] double first() const { return values_.front(); }
   [[nodiscard]] double last() const { return values_.back(); }
 
   [[nodiscard]] bool is_constant() const;
-  /// The first time after `time` at which it has a kink or jumps; infinity when there is none.
+  /// Returns the first time after `time` at which it has a kink or jumps; infinity when there is
+  /// none.
   [[nodiscard]] double next_kink(double time) const;
+  /// Tells whether the value jumps at `time`.
   [[nodiscard]] bool jumps_at(double time) const;
-  /// The last kink or jump; minus infinity for a constant.
+  /// Returns the time of the last kink or jump; minus infinity for a constant.
   [[nodiscard]] double rests_after() const;
 
   [[nodiscard]] ScheduleKind kind() const { return kind_; }
-  /// Times and values of the points; a constant has no times and one value.
+  /// Returns the times of the points, as many as `values()`. A constant has no times and one value.
   [[nodiscard]] std::span<const double> times() const { return times_; }
   [[nodiscard]] std::span<const double> values() const { return values_; }
 
-  /// Its values multiplied, at the same times.
+  /// Returns the schedule with its values multiplied by `factor`, at the same times.
   [[nodiscard]] Schedule scaled(double factor) const;
-  /// Other values at the same times, as many.
+  /// Returns the schedule with other values, as many as before, at the same times.
   [[nodiscard]] Schedule with_values(std::vector<double> values) const;
 
   friend bool operator==(const Schedule&, const Schedule&) = default;
@@ -65,8 +71,8 @@ class Schedule {
   std::vector<double> values_;
 };
 
-/// As in a case file: `5`, `[5, 4, 0, 1]` or `{ times = [0, 1, 2], values = [5, 4, 4.5], kind =
-/// "linear" }`.
+/// Returns the text of a schedule as in a case file: `5`, `[5, 4, 0, 1]` or `{ times = [0, 1, 2],
+/// values = [5, 4, 4.5], kind = "linear" }`.
 [[nodiscard]] std::string text_of(const Schedule& schedule);
 
 }  // namespace vesica::model

@@ -7,7 +7,7 @@
 
 namespace vesica::model {
 
-/// What a functional sees at one point of the surface if it does not look at the curvature.
+/// Values at one point of the surface for functionals that do not depend on the curvature.
 /// Gradients are surface gradients in R^3.
 template <class T>
 struct LocalPoint {
@@ -17,7 +17,7 @@ struct LocalPoint {
   Vec3<T> order_parameter_gradient;  ///< grad c [1/length]
 };
 
-/// What any functional sees at one point of the surface.
+/// Values at one point of the surface for functionals that depend on the curvature too.
 template <class T>
 struct SurfacePoint : LocalPoint<T> {
   T mean_curvature;                 ///< kappa = -div nu, -2/R on a sphere [1/length]
@@ -48,8 +48,8 @@ struct Variation {
   }
 };
 
-/// A density f(x, nu, c, grad c) that does not look at the curvature, and its partial derivatives.
-/// All formulations take what they need from these five.
+/// A density f(x, nu, c, grad c) that does not depend on the curvature, and its partial
+/// derivatives. All formulations take what they need from these five.
 template <class T>
 struct LocalDensity {
   T value{};                              ///< f
@@ -59,7 +59,7 @@ struct LocalDensity {
   Vec3<T> by_normal{};                    ///< df/dnu
 };
 
-/// First variation of a density that does not look at the curvature, P = I - nu nu^T:
+/// Returns the first variation of a density that does not depend on the curvature, P = I - nu nu^T:
 ///
 ///     a = -f kappa - f_grad . Q grad c + f_x . nu,   b = -P f_nu,   s = f_c,   q = f_grad.
 template <class T>
@@ -74,22 +74,23 @@ Variation<T> variation_of(const LocalDensity<T>& f, const SurfacePoint<T>& p) {
   return v;
 }
 
-/// A term of the two lists without curvature. It adds `factor` times itself to a density. One that
-/// looks at the curvature does not satisfy this: a LocalPoint has none.
+/// A term of `Energies` or `Constraints` that does not depend on the curvature. It adds `factor`
+/// times itself to a density. One that looks at the curvature does not satisfy this: a LocalPoint
+/// has none.
 template <class Term>
 concept LocalTerm = requires(const Material& material, const LocalPoint<double>& point,
                              LocalDensity<double>& sum) {
   Term::add_to(material, point, 1.0, sum);
 };
 
-/// A term with a first variation of its own, as (2.6a), (2.6b) and (2.6d) after integration by
-/// parts. The other ones take `variation_of` their density.
+/// A term that gives its first variation itself, as (2.6a), (2.6b) and (2.6d) after integration by
+/// parts. The other terms take `variation_of` their density.
 template <class Term>
 concept HasVariation = requires(const Material& material, const SurfacePoint<double>& point) {
   { Term::variation(material, point) } -> std::same_as<Variation<double>>;
 };
 
-/// The density of a term at a point.
+/// Returns the density of a term at a point.
 template <class Term, class T>
 T density_of(const Material& material, const SurfacePoint<T>& point) {
   if constexpr (LocalTerm<Term>) {
@@ -101,7 +102,7 @@ T density_of(const Material& material, const SurfacePoint<T>& point) {
   }
 }
 
-/// The first variation of a term at a point.
+/// Returns the first variation of a term at a point.
 template <class Term, class T>
 Variation<T> variation_of_term(const Material& material, const SurfacePoint<T>& point) {
   if constexpr (HasVariation<Term>) {
@@ -114,13 +115,13 @@ Variation<T> variation_of_term(const Material& material, const SurfacePoint<T>& 
   }
 }
 
-/// |Q|^2 = |grad nu|^2 = kappa_1^2 + kappa_2^2 [1/length^2].
+/// Returns |Q|^2 = |grad nu|^2 = kappa_1^2 + kappa_2^2 [1/length^2].
 template <class T>
 T shape_operator_squared(const SurfacePoint<T>& p) {
   return norm_squared(p.shape_operator);
 }
 
-/// Gaussian curvature g = (kappa^2 - |Q|^2) / 2 [1/length^2].
+/// Returns the Gaussian curvature g = (kappa^2 - |Q|^2) / 2 [1/length^2].
 template <class T>
 T gaussian_curvature(const SurfacePoint<T>& p) {
   return 0.5 * (p.mean_curvature * p.mean_curvature - shape_operator_squared(p));

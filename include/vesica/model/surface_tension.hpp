@@ -14,7 +14,7 @@ struct SurfaceTension {
   static constexpr std::string_view name = "surface_tension";
   static constexpr bool needs_phase_field = false;
 
-  /// It is left out where both tensions are zero.
+  /// Tells whether a tension is not zero; without one the term is left out.
   static bool is_present(const Material& m) {
     return m.surface_tension.phase_1 != 0 || m.surface_tension.phase_2 != 0;
   }

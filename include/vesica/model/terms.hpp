@@ -14,11 +14,12 @@
 
 namespace vesica::model {
 
-/// The energies: (1.6) and the surface tension. A new term is a type like these, named here.
+/// The list of the energies: (1.6) and the surface tension. A new term is a type like these, named
+/// here.
 using Energies = std::tuple<BendingEnergy, GaussianEnergy, LineEnergy, SurfaceTension>;
 
-/// The constrained functionals of (2.2), (2.3), in the order of the multipliers. A new constraint
-/// is a type like these, named here.
+/// The list of the constrained functionals of (2.2), (2.3), in the order of the multipliers. A new
+/// constraint is a type like these, named here.
 using Constraints = std::tuple<Volume, Area, PhaseDifference>;
 
 inline constexpr std::size_t num_energies = std::tuple_size_v<Energies>;

@@ -26,7 +26,7 @@ struct Volume {
     sum.by_normal = sum.by_normal + third * p.position;
   }
 
-  /// (2.6d), integrated by parts.
+  /// Returns the first variation (2.6d), integrated by parts: a = 1.
   template <class T>
   static Variation<T> variation(const Material&, const SurfacePoint<T>&) {
     Variation<T> v;

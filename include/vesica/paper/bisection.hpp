@@ -20,11 +20,12 @@ struct BisectionOptions {
   double max_size = std::numeric_limits<double>::infinity();
 };
 
-/// Distance of the two corners of each triangle that are farthest apart [length], shape
+/// Returns the distance of the two corners of each triangle that are farthest apart [length], shape
 /// (num_triangles).
 [[nodiscard]] Eigen::VectorXd diameters(const mesh::Surface& surface);
 
-/// Largest diameter that each triangle should have [length], shape (num_triangles): the smallest of
+/// Computes the largest diameter that each triangle should have [length], shape (num_triangles),
+/// the smallest of
 ///
 ///     width / N_in      in the interface, where |c| < 0.95 at one of its six nodes
 ///     width / N_off     in the bulk of a phase
@@ -38,18 +39,19 @@ struct BisectionOptions {
                                                const adapt::PhaseInterface& phases,
                                                const BisectionOptions& options);
 
+/// What is to be done with a triangle.
 enum class Mark { coarsen, keep, refine };
 
-/// One bisection for every triangle with a diameter above the wanted one, coarsening for every one
-/// below half of it. Would the refined mesh have more than `max_nodes` nodes, all wanted diameters
-/// grow by one factor, in steps of 5 %, until it has not, or nothing is refined.
+/// Marks every triangle with a diameter above the wanted one for one bisection, and every one below
+/// half of it for coarsening. Would the refined mesh have more than `max_nodes` nodes, all wanted
+/// diameters grow by one factor, in steps of 5 %, until it has not, or nothing is refined.
 [[nodiscard]] std::vector<Mark> marks(const mesh::Surface& surface,
                                       const Eigen::VectorXd& wanted_diameters, double max_nodes);
 
-/// The same surface with the corners of every triangle rotated so that its longest edge lies
-/// opposite corner 2 (of equal ones the one with the highest mid-edge node): how a mesh that was
-/// not made by bisection begins. Since longest edges are ordered, later bisections can be undone
-/// one by one; with edges that are not, vertices of valence 4 may be missing.
+/// Returns the same surface with the corners of every triangle rotated so that its longest edge
+/// lies opposite corner 2 (of equal ones the one with the highest mid-edge node): how a mesh that
+/// was not made by bisection begins. Since longest edges are ordered, later bisections can be
+/// undone one by one; with edges that are not, vertices of valence 4 may be missing.
 [[nodiscard]] mesh::Surface with_longest_sides_first(const mesh::Surface& surface);
 
 /// A mesh after bisection, and what was done.

@@ -17,11 +17,11 @@ struct ConformalMap {
   int num_flipped = 0;  ///< triangles whose image is turned over
 };
 
-/// Throws ConfigError naming the genus when the surface is no deformed sphere (one component, genus
-/// 0).
+/// Checks the genus. Throws ConfigError naming it when the surface is no deformed sphere (one
+/// component, genus 0).
 void check_genus_zero(const mesh::Triangulation& triangulation);
 
-/// The conformal map of a surface of genus 0, as the stationary point of (3.6),
+/// Computes the conformal map of a surface of genus 0, as the stationary point of (3.6),
 ///
 ///     F(u, rho) = 1/2 int |grad u|^2 + sum_i rho_i (|u_i|^2 - 1),
 ///

@@ -51,37 +51,40 @@ struct SemiImplicitSolution {
 /// explicit.
 class SemiImplicitProblem {
  public:
-  /// `threads` as for parallel_for; 0 takes all cores.
+  /// Makes the problem on a mesh. `threads` is the number of threads of parallel_for; 0 takes all
+  /// cores.
   SemiImplicitProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
                       TangentialVelocity tangential, int threads);
 
-  /// Unknowns of a node in the geometry block: 6 with tangential fields, 4 without.
+  /// Returns the number of unknowns of a node in the geometry block: 6 with tangential fields, 4
+  /// without.
   [[nodiscard]] int block_size() const;
   [[nodiscard]] const problem::DofLayout& layout() const { return layout_; }
   [[nodiscard]] const model::Model& model() const { return model_; }
 
-  /// A system of the right pattern for `assemble`, values zero.
+  /// Makes a system with the pattern that `assemble` fills, values zero.
   [[nodiscard]] SemiImplicitSystem make_system() const;
 
-  /// Q_h^m of 3.3.
+  /// Recovers the shape operator Q_h^m of 3.3.
   [[nodiscard]] fem::NodalShapeOperator shape_operator(const mesh::Positions& positions) const;
 
-  /// Matrices and right-hand sides for the step that starts with `fields`. Throws RecoverableError
-  /// when one of them is not finite.
+  /// Computes matrices and right-hand sides for the step that starts with `fields`. Throws
+  /// RecoverableError when one of them is not finite.
   void assemble(const SemiImplicitSettings& settings, const problem::Fields& fields,
                 const fem::NodalShapeOperator& shape_operator, SemiImplicitSystem& system) const;
 
-  /// (A.2) at multipliers of the active constraints.
+  /// Returns the fields (A.2) at multipliers of the active constraints.
   [[nodiscard]] problem::Fields fields_at(const SemiImplicitSolution& solution,
                                           const Eigen::VectorXd& multipliers) const;
 
-  /// C_i (2.2), (2.3) of the active constraints with the targets at `time`.
+  /// Computes the errors C_i - target_i of the functionals (2.2), (2.3) of the active constraints
+  /// with the targets at `time`.
   [[nodiscard]] Eigen::VectorXd constraint_errors(const problem::Fields& fields, double time) const;
-  /// What the errors are measured by: |target|, and the area where the phase difference has the
-  /// target 0.
+  /// Returns the scales that the errors are divided by: |target|, and the area where the phase
+  /// difference has the target 0.
   [[nodiscard]] Eigen::VectorXd constraint_scales(const problem::Fields& fields, double time) const;
-  /// H of appendix B, the approximate derivative of the errors with respect to the multipliers,
-  /// row: constraint, column: multiplier.
+  /// Computes H of appendix B, the approximate derivative of the errors with respect to the
+  /// multipliers, row: constraint, column: multiplier.
   [[nodiscard]] Eigen::MatrixXd constraint_slopes(const problem::Fields& fields,
                                                   const SemiImplicitSolution& solution) const;
 
@@ -89,7 +92,7 @@ class SemiImplicitProblem {
   void gather_matrices(const std::vector<double>& pairs, double tangential_scale,
                        SemiImplicitSystem& system) const;
   void gather_sides(const std::vector<double>& local, SemiImplicitSystem& system) const;
-  /// Volume, area and phase difference.
+  /// Computes volume, area and phase difference.
   [[nodiscard]] std::array<double, model::num_constraints> functionals(
       const problem::Fields& fields) const;
 

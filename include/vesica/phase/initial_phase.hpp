@@ -14,10 +14,13 @@
 
 namespace vesica::phase {
 
+/// Kind of the initial order parameter; PhaseOptions::fields describes each.
 enum class PhaseKind { uniform, ramp, caps, bands, spots, noise, file };
 /// Coordinate of ramp, caps and bands; radial: distance from the line along z through the centroid.
 enum class Axis { x, y, z, radial };
+/// Ends of the axis at which phase 1 lies.
 enum class CapEnds { high, low, both };
+/// Direction in which bands follow each other.
 enum class BandDirection { along, around };
 
 }  // namespace vesica::phase
@@ -57,8 +60,8 @@ struct EnumNames<phase::BandDirection> {
 
 namespace vesica::phase {
 
-/// Initial order parameter by name. Interfaces of caps, bands and spots have the equilibrium
-/// profile tanh(s / epsilon).
+/// Options of the initial order parameter, which is chosen by name. Interfaces of caps, bands and
+/// spots have the equilibrium profile tanh(s / epsilon).
 struct PhaseOptions {
   PhaseKind kind = PhaseKind::ramp;
   Axis axis = Axis::x;
@@ -116,9 +119,9 @@ struct PhaseOptions {
   }
 };
 
-/// Order parameter at the nodes, shape (N). With a `target` [length^2] and `match_target`, the
-/// level is shifted so that int h(c) = target to round-off. Throws ConfigError when no shift
-/// reaches the target, IoError for an unreadable file.
+/// Computes the initial order parameter at the nodes, shape (N). With a `target` [length^2] and
+/// `match_target`, the level is shifted so that int h(c) = target to round-off. Throws ConfigError
+/// when no shift reaches the target, IoError for an unreadable file.
 [[nodiscard]] Eigen::VectorXd initial_phase(const PhaseOptions& options,
                                             const mesh::Surface& surface, double interface_width,
                                             std::optional<double> target);

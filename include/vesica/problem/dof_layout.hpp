@@ -8,8 +8,8 @@
 
 namespace vesica::problem {
 
-/// Where the unknowns stand in the flat vector of an integrator: node by node x, y, z, kappa and,
-/// with a phase field, c; then the multipliers of the active constraints in the order of
+/// Tells where the unknowns stand in the flat vector of an integrator: node by node x, y, z, kappa
+/// and, with a phase field, c; then the multipliers of the active constraints in the order of
 /// model::Constraints.
 class DofLayout {
  public:
@@ -21,20 +21,22 @@ class DofLayout {
   [[nodiscard]] Eigen::Index num_nodal() const { return num_nodes_ * block_size(); }
   [[nodiscard]] int num_multipliers() const { return num_multipliers_; }
   [[nodiscard]] Eigen::Index size() const { return num_nodal() + num_multipliers_; }
-  /// Row of the multiplier of the constraint at a place of model::Constraints, behind the nodal
-  /// unknowns; -1 if it is free.
+  /// Returns the row of the multiplier of the constraint at a place of model::Constraints, behind
+  /// the nodal unknowns; -1 if it is free.
   [[nodiscard]] int multiplier(int constraint) const {
     return multipliers_[static_cast<std::size_t>(constraint)];
   }
 
-  /// Fields as one vector, shape (size()).
+  /// Returns the fields as one vector, shape (size()).
   [[nodiscard]] Eigen::VectorXd pack(const Fields& fields) const;
+  /// Returns the fields that are in such a vector, the inverse of `pack`.
   [[nodiscard]] Fields unpack(const Eigen::Ref<const Eigen::VectorXd>& flat) const;
-  /// Multipliers of the active constraints, shape (num_multipliers()), by constraint.
+  /// Returns the multipliers of the active constraints, shape (num_multipliers()), as one value for
+  /// each constraint.
   [[nodiscard]] model::PerConstraint named(
       const Eigen::Ref<const Eigen::VectorXd>& multipliers) const;
-  /// 1 where an unknown has a time derivative in the equations (x, c), 0 for kappa and the
-  /// multipliers.
+  /// Returns a vector of shape (size()) with 1 where an unknown has a time derivative in the
+  /// equations (x, c), 0 for kappa and the multipliers.
   [[nodiscard]] Eigen::VectorXd differential_mask() const;
 
  private:

@@ -17,17 +17,18 @@ struct EnergyFields {
   mesh::Positions positions;        ///< x, shape (N, 3) [length]
   mesh::Positions moment;           ///< p = -k_kappa (kappa - kappa_s) nu, (N, 3) [energy/length]
   Eigen::VectorXd order_parameter;  ///< c, shape (N), or (0) for a single-phase vesicle
-  double time = 0;                  ///< that of the material, where it changes
+  double time = 0;                  ///< time at which the material is taken [time]
 };
 
-/// Rates that the gradient flow adds to the derivative of the energy; empty: none.
+/// Rates of the gradient flow, whose terms are added to the derivative of the energy. Empty arrays
+/// add nothing.
 struct EnergyRates {
   mesh::Positions velocity;         ///< x', shape (N, 3)
   Eigen::VectorXd order_parameter;  ///< c', shape (N)
 };
 
-/// Weights of volume, area and phase difference in the Lagrangian E + sum lambda_i C_i, signs as in
-/// (1.7a).
+/// Multipliers of volume, area and phase difference in the Lagrangian E + sum lambda_i C_i, signs
+/// as in (1.7a).
 using Multipliers = std::array<double, model::num_constraints>;
 
 /// Values and exact gradients of the constrained functionals, in the order of model::Constraints; 0
@@ -51,7 +52,8 @@ struct ConstraintEvaluation {
 /// terms are sums over elements. Methods throw RecoverableError when an element is degenerate.
 class EnergyProblem {
  public:
-  /// `threads` as for parallel_for; 0 takes all cores.
+  /// Makes the problem on a mesh. `threads` is the number of threads of parallel_for; 0 takes all
+  /// cores.
   EnergyProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
                 int threads);
 
@@ -59,29 +61,33 @@ class EnergyProblem {
   [[nodiscard]] const mesh::Triangulation& triangulation() const { return *triangulation_; }
   [[nodiscard]] const fem::NodeGraph& graph() const { return graph_; }
 
-  /// The maximiser p: one solve with the mass matrix weighted by 1/k_kappa.
+  /// Computes the maximiser p, shape (N, 3), with one solve with the mass matrix weighted by
+  /// 1/k_kappa.
   [[nodiscard]] mesh::Positions moment(const mesh::Positions& positions,
                                        const Eigen::VectorXd& order_parameter,
                                        double time = 0) const;
-  /// Fields with p at its maximum.
+  /// Returns the fields with p at the maximum of the energy.
   [[nodiscard]] EnergyFields fields(const mesh::Positions& positions,
                                     const Eigen::VectorXd& order_parameter, double time = 0) const;
+  /// Computes the parts of the energy E_h [energy].
   [[nodiscard]] model::EnergyParts energy(const EnergyFields& fields) const;
-  /// kappa = kappa_s - p . nu / k_kappa at the nodes, shape (N) [1/length].
+  /// Computes kappa = kappa_s - p . nu / k_kappa at the nodes, shape (N) [1/length].
   [[nodiscard]] Eigen::VectorXd mean_curvature(const EnergyFields& fields) const;
-  /// Derivative of E_h + sum lambda_i C_i with respect to the nodal values of x, p and c. With
-  /// rates also the two terms of the gradient flow: int (x'.nu) nu . xi and eps omega int c' phi.
+  /// Computes the derivative of E_h + sum lambda_i C_i with respect to the nodal values of x, p and
+  /// c. With rates also the two terms of the gradient flow: int (x'.nu) nu . xi and eps omega int
+  /// c' phi.
   [[nodiscard]] EnergyFields gradient(const EnergyFields& fields, const Multipliers& multipliers,
                                       const EnergyRates& rates = {}) const;
-  /// The derivative of `gradient` for moves of the nodes along `directions`, shape (N, 3): block
-  /// (node, node) of a matrix from `graph().block_pattern(4 or 5)`, unknowns of a node in the order
-  /// p, displacement, c. Symmetric for weights {1, 0}. Unknowns p always count with weight 1.
+  /// Computes the derivative of `gradient` for moves of the nodes along `directions`, shape (N, 3):
+  /// block (node, node) of a matrix from `graph().block_pattern(4 or 5)`, unknowns of a node in the
+  /// order p, displacement, c. Symmetric for weights {1, 0}. Unknowns p always count with weight 1.
   void hessian(const EnergyFields& fields, const Multipliers& multipliers, const EnergyRates& rates,
                const mesh::Positions& directions, const JacobianWeights& weights,
                linalg::SparseMatrix& matrix) const;
+  /// Computes the values and exact gradients of the constrained functionals.
   [[nodiscard]] ConstraintEvaluation constraints(const mesh::Positions& positions,
                                                  const Eigen::VectorXd& order_parameter) const;
-  /// The time derivative of `constraints` along the rates: of the values and of the gradients.
+  /// Computes the time derivatives of the values and gradients of `constraints` along the rates.
   [[nodiscard]] ConstraintEvaluation constraint_rates(const mesh::Positions& positions,
                                                       const Eigen::VectorXd& order_parameter,
                                                       const EnergyRates& rates) const;

@@ -11,7 +11,7 @@
 
 namespace vesica::problem {
 
-/// Equation (e): the exact derivative of the discrete functionals, d/dt C_i + gamma (C_i -
+/// Form of equation (e): the exact derivative of the discrete functionals, d/dt C_i + gamma (C_i -
 /// target_i) = target_i', or the constraints themselves, C_i = target_i.
 enum class ConstraintForm { differentiated, original };
 
@@ -22,9 +22,9 @@ struct EquationSettings {
   ConstraintForm form = ConstraintForm::differentiated;
 };
 
-/// J = value * dF/dy + rate * dF/dy' for the unknowns with a time derivative; algebraic unknowns,
-/// which have none, always enter with dF/dy. IDA's Jacobian is {1, cj}; {0, 1} is the matrix for
-/// consistent initial values.
+/// Weights of the Jacobian J = value * dF/dy + rate * dF/dy' for the unknowns with a time
+/// derivative; algebraic unknowns, which have none, always enter with dF/dy. IDA's Jacobian is {1,
+/// cj}; {0, 1} is the matrix for consistent initial values.
 struct JacobianWeights {
   double value = 1;
   double rate = 0;
@@ -47,35 +47,40 @@ class FlowProblem {
   [[nodiscard]] virtual Eigen::Index num_multipliers() const = 0;
   [[nodiscard]] Eigen::Index size() const { return num_nodal() + num_multipliers(); }
 
-  /// y with the positions and the order parameter of a start and first guesses of the algebraic
-  /// unknowns.
+  /// Returns y with the positions and the order parameter of a start and first guesses of the
+  /// algebraic unknowns.
   [[nodiscard]] virtual Eigen::VectorXd initial_values(const State& start) const = 0;
+  /// Returns the nodal fields and multipliers of y.
   [[nodiscard]] virtual Fields values(double time, const Eigen::VectorXd& y) const = 0;
+  /// Returns the time derivatives of the nodal fields and multipliers from y and y'.
   [[nodiscard]] virtual Fields rates(const Eigen::VectorXd& y,
                                      const Eigen::VectorXd& y_rate) const = 0;
-  /// 1 where an unknown has a time derivative in the equations, 0 for algebraic unknowns.
+  /// Returns a vector of shape (size()) with 1 where an unknown has a time derivative in the
+  /// equations, 0 for algebraic unknowns.
   [[nodiscard]] virtual Eigen::VectorXd differential_mask() const = 0;
-  /// Natural size of each unknown; errors are measured in it.
+  /// Returns the natural size of each unknown, shape (size()); errors are measured in it.
   [[nodiscard]] virtual Eigen::VectorXd units(const Scales& scales) const = 0;
-  /// Energy of the discretisation with the material at a time, where it has one of its own.
+  /// Computes the energy of the discretisation with the material at a time; absent for a
+  /// discretisation without a discrete energy.
   [[nodiscard]] virtual std::optional<model::EnergyParts> energy(double,
                                                                  const Eigen::VectorXd&) const {
     return std::nullopt;
   }
 
-  /// F(t, y, y'), shape (size()).
+  /// Computes the residual F(t, y, y'), shape (size()).
   [[nodiscard]] virtual Eigen::VectorXd residual(const EquationSettings& settings, double time,
                                                  const Eigen::VectorXd& y,
                                                  const Eigen::VectorXd& y_rate) const = 0;
-  /// A bordered matrix of the right pattern for `jacobian`.
+  /// Makes a bordered matrix with the pattern that `jacobian` fills.
   [[nodiscard]] virtual linalg::BorderedMatrix make_matrix() const = 0;
-  /// The arguments of `residual`, the weights and the matrix.
+  /// Computes the Jacobian of `residual` at the same arguments, with these weights, into `matrix`,
+  /// which make_matrix() made.
   virtual void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
                         double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                         linalg::BorderedMatrix& matrix) const = 0;
 
-  /// Coordinates that follow the surface: when it has moved far, the present surface becomes the
-  /// new reference, (y, y') are rewritten and true is returned.
+  /// Renews coordinates that follow the surface: when it has moved far, the present surface becomes
+  /// the new reference, (y, y') are rewritten and true is returned.
   virtual bool renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) {
     (void)y;
     (void)y_rate;

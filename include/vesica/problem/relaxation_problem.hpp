@@ -22,21 +22,22 @@ struct ConstraintValues {
 
 struct EquationContext;
 
-/// The semi-discrete relaxation flow (Problem 3.1 with the damping of 3.4 eliminated) as a DAE F(t,
-/// y, y') = 0:
+/// The semi-discrete relaxation flow (Problem 3.1 with the damping of 3.4 eliminated) as a DAE
+/// F(t, y, y') = 0:
 ///
-///   (a)  int (x'.nu) chi + <dF + sum lambda_i dC_i, chi> = 0                                   N
-///   equations (b)  int grad xi : grad x + int kappa nu . xi + alpha int xi . (I - nu nu^T) x' = 0
-///   3N (d)  eps omega int c' phi + <dF + sum lambda_i dC_i, phi> = 0                             N
-///   (e)  d/dt C_i + gamma (C_i - target_i) - target_i' = 0                                    one
-///   a constraint
+///   equation                                                                          how many
+///   (a)  int (x'.nu) chi + <dF + sum lambda_i dC_i, chi> = 0                              N
+///   (b)  int grad xi : grad x + int kappa nu . xi + alpha int xi . (I - nu nu^T) x' = 0   3N
+///   (d)  eps omega int c' phi + <dF + sum lambda_i dC_i, phi> = 0                         N
+///   (e)  d/dt C_i + gamma (C_i - target_i) - target_i' = 0                      one a constraint
 ///
 /// Unknowns and equations of a node stand together (DofLayout); equation order in a node: (b) x, y,
 /// z, (a), (d). Every method throws RecoverableError when an element is degenerate or a value is
 /// not finite.
 class RelaxationProblem final : public FlowProblem {
  public:
-  /// `threads` as for parallel_for; 0 takes all cores.
+  /// Makes the equations on a mesh. `threads` is the number of threads of parallel_for; 0 takes all
+  /// cores.
   RelaxationProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
                     int threads);
 
@@ -63,14 +64,14 @@ class RelaxationProblem final : public FlowProblem {
 
   [[nodiscard]] linalg::BorderedMatrix make_matrix() const override;
 
-  /// The Jacobian at (t, y, y'), exact but for the recovered shape operator Q_h, which is nonlocal:
-  /// its value is used, its derivative is that of the elementwise shape operator.
+  /// Computes the Jacobian at (t, y, y'), exact but for the recovered shape operator Q_h, which is
+  /// nonlocal: its value is used, its derivative is that of the elementwise shape operator.
   void jacobian(const EquationSettings& settings, const JacobianWeights& weights, double time,
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
 
-  /// Values of all three functionals (the phase difference is 0 for a single-phase vesicle) and
-  /// their exact rates.
+  /// Computes the values of all three functionals (the phase difference is 0 for a single-phase
+  /// vesicle) and their exact rates.
   [[nodiscard]] ConstraintValues constraints(const Eigen::VectorXd& y,
                                              const Eigen::VectorXd& y_rate) const;
 

@@ -11,10 +11,10 @@ namespace vesica::problem {
 /// Nodal fields and multipliers, or their time derivatives.
 struct Fields {
   mesh::Positions positions;  ///< x, shape (N, 3) [length]
-  Eigen::VectorXd
-      mean_curvature;  ///< kappa = kappa_1 + kappa_2, -2/R on a sphere, shape (N) [1/length]
-  Eigen::VectorXd
-      order_parameter;  ///< c, +1 in phase 1, shape (N), or (0) for a single-phase vesicle [-]
+  /// kappa = kappa_1 + kappa_2, -2/R on a sphere, shape (N) [1/length].
+  Eigen::VectorXd mean_curvature;
+  /// c, +1 in phase 1, shape (N), or (0) for a single-phase vesicle [-].
+  Eigen::VectorXd order_parameter;
   model::PerConstraint multipliers;
 };
 

@@ -9,8 +9,8 @@
 
 namespace vesica::problem {
 
-/// The constrained gradient flow of the discrete energy E_h over a normal graph x_i = X_i + d_i
-/// n_i, with L = E_h + sum lambda_i C_i + sum mu_k g_k, g the rigid gauge:
+/// The constrained gradient flow of the discrete energy E_h over a normal graph
+/// x_i = X_i + d_i n_i, with L = E_h + sum lambda_i C_i + sum mu_k g_k, g the rigid gauge:
 ///
 ///   dE_h/dp = 0                                             3N  equations (the maximiser p)
 ///   int (x'.nu) (n_i.nu) phi_i + dL/dd_i = 0                 N
@@ -23,14 +23,15 @@ namespace vesica::problem {
 /// exact and its part for y symmetric. `EquationSettings::damping` has no meaning here.
 class VariationalProblem final : public FlowProblem {
  public:
-  /// The reference of the graph is `positions`. `threads` as for parallel_for; 0 takes all cores.
+  /// Makes the equations on a mesh, with `positions`, shape (N, 3), as the reference of the graph.
+  /// `threads` is the number of threads of parallel_for; 0 takes all cores.
   VariationalProblem(std::shared_ptr<const mesh::Triangulation> triangulation, model::Model model,
                      const mesh::Positions& positions, int threads);
 
   [[nodiscard]] const model::Model& model() const override { return energy_.model(); }
   [[nodiscard]] const EnergyProblem& energy_problem() const { return energy_; }
   [[nodiscard]] const NormalGraph& graph() const { return graph_; }
-  /// The displacements d in a vector of the unknowns, shape (N).
+  /// Returns the displacements d, shape (N), that are in a vector of the unknowns.
   [[nodiscard]] Eigen::VectorXd displacements(const Eigen::VectorXd& y) const;
   [[nodiscard]] int block_size() const override { return model().is_two_phase ? 5 : 4; }
   [[nodiscard]] Eigen::Index num_nodal() const override;
@@ -51,16 +52,17 @@ class VariationalProblem final : public FlowProblem {
   void jacobian(const EquationSettings& settings, const JacobianWeights& weights, double time,
                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
                 linalg::BorderedMatrix& matrix) const override;
-  /// A new reference when a normal has turned so far that its cosine with the direction of the node
-  /// is below 0.85, or when the quality (3.5) of the mesh has fallen below 0.3 and by a quarter:
-  /// then the nodes are first redistributed on the surface, and c, p and the rates interpolated.
+  /// Takes a new reference when a normal has turned so far that its cosine with the direction of
+  /// the node is below 0.85, or when the quality (3.5) of the mesh has fallen below 0.3 and by a
+  /// quarter: then the nodes are first redistributed on the surface, and c, p and the rates
+  /// interpolated.
   bool renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) override;
 
  private:
   [[nodiscard]] EnergyFields fields(double time, const Eigen::VectorXd& y) const;
   [[nodiscard]] EnergyRates energy_rates(const Eigen::VectorXd& y_rate) const;
   [[nodiscard]] Multipliers multipliers(const Eigen::VectorXd& y) const;
-  /// Component `component` of every node.
+  /// Returns the component of that number of every node.
   [[nodiscard]] Eigen::VectorXd component(const Eigen::VectorXd& y, Eigen::Index component) const;
   [[nodiscard]] Eigen::MatrixXd constraint_columns(const ConstraintEvaluation& constraints) const;
 

@@ -12,18 +12,16 @@
 
 namespace vesica::relax {
 
-/// Mesh changes of the paper, Sections 3.5 and 3.6. Every `every` steps one bisection of elements
-/// that are larger than wanted and one coarsening of those below half of that. With method
-/// conformal the conformal image of a sphere mesh instead, when the quality (3.5) is below
+/// Asks for the mesh changes of the paper, Sections 3.5 and 3.6: every `every` steps one bisection
+/// of elements that are larger than wanted and one coarsening of those below half of that. With
+/// method conformal the conformal image of a sphere mesh instead, when the quality (3.5) is below
 /// `conformal_quality` and below 0.75 of what it was after the last one was asked for; where the
-/// image is no better, the bisection.
-///
-/// Without waiting: after failed steps, 5 times at most, an image (conformal) or a bisection; and
-/// before the run ends in an equilibrium, 10 times at most, a bisection as long as elements are
-/// larger than wanted.
+/// image is no better, the bisection. Without waiting: after failed steps, 5 times at most, an
+/// image (conformal) or a bisection; and before the run ends in an equilibrium, 10 times at most, a
+/// bisection as long as elements are larger than wanted.
 class BisectionController final : public Controller {
  public:
-  /// `scales` of the case give the unit of max_size.
+  /// Makes the controller. The `scales` of the case give the unit of max_size.
   BisectionController(const AdaptionOptions& options, model::Model model,
                       const problem::Scales& scales);
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;

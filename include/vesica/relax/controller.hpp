@@ -10,41 +10,41 @@
 
 namespace vesica::relax {
 
-/// Tangential damping from the next step on [length^2/energy].
+/// Request for this tangential damping alpha [length^2/energy] from the next step on.
 struct SetDamping {
   double alpha = 1;
 };
 
-/// End the run with this status and one sentence that says why.
+/// Request to end the run with this status and one sentence that says why.
 struct Stop {
   RunStatus status = RunStatus::stopped;
   std::string reason;
   int signal = 0;
 };
 
-/// One round of bisection and coarsening, paper::bisect.
+/// Plan of one round of bisection and coarsening, paper::bisect.
 struct BisectionPlan {
   paper::BisectionOptions marking;
   bool is_first = false;  ///< the present mesh was not made by bisection
 };
 
-/// The conformal image of a sphere mesh, paper::conformal_remesh; where its quality is no better
-/// than that of the present mesh, the bisection.
+/// Plan of a conformal image of a sphere mesh, paper::conformal_remesh. Where its quality is no
+/// better than that of the present mesh, the bisection.
 struct ConformalPlan {
-  BisectionPlan otherwise;
+  BisectionPlan otherwise;  ///< the bisection in place of an image that is no better
 };
 
-/// How a new mesh is made; sizes stand for adapt::local_remesh.
+/// Plan of a new mesh. Options of a size field stand for adapt::local_remesh.
 using MeshPlan = std::variant<adapt::SizeFieldOptions, BisectionPlan, ConformalPlan>;
 
-/// A new mesh of the surface, with `max_nodes` nodes at most.
+/// Request for a new mesh of the surface, with `max_nodes` nodes at most.
 struct Remesh {
   MeshPlan plan;
   double max_nodes = 0;
   std::string reason;  ///< what follows "because" in the log
 };
 
-/// An event between steps. relax() alone carries requests out.
+/// A request of a controller, which relax() carries out between two steps.
 using Request = std::variant<SetDamping, Stop, Remesh>;
 
 /// Looks at the run after every accepted step and may ask for something. Derive from it to steer a
@@ -56,26 +56,28 @@ class Controller {
   Controller& operator=(const Controller&) = delete;
   virtual ~Controller() = default;
 
-  /// Requests are carried out in order, before the next step; empty: go on.
+  /// Returns what the controller asks for after an accepted step. Requests are carried out in
+  /// order, before the next step; without any the run goes on.
   [[nodiscard]] virtual std::vector<Request> respond(const StepView& view) = 0;
 
-  /// When a step has failed; `view` is the last good state. With a Remesh the run goes on from
-  /// there, unless a limit is reached or a Stop has status interrupted; else a Stop tells why it
-  /// ends, and the reason of the failure is added to its reason.
+  /// Returns what the controller asks for when a step has failed; `view` is the last good state.
+  /// With a Remesh the run goes on from there, unless a limit is reached or a Stop has status
+  /// interrupted; else a Stop tells why it ends, and the reason of the failure is added to its
+  /// reason.
   [[nodiscard]] virtual std::vector<Request> respond_to_failure(const StepView& view) {
     (void)view;
     return {};
   }
 
-  /// When the run is about to end at a limit. Only a Stop counts: it tells why the run got no
-  /// further; the limit is added to its reason.
+  /// Returns what the controller asks for when the run is about to end at a limit. Only a Stop
+  /// counts: it tells why the run got no further; the limit is added to its reason.
   [[nodiscard]] virtual std::vector<Request> respond_to_limit(const StepView& view) {
     (void)view;
     return {};
   }
 
-  /// When the run is about to end in an equilibrium. A Stop ends it with another status; with a
-  /// Remesh the run goes on.
+  /// Returns what the controller asks for when the run is about to end in an equilibrium. A Stop
+  /// ends it with another status; with a Remesh the run goes on.
   [[nodiscard]] virtual std::vector<Request> respond_to_rest(const StepView& view) {
     (void)view;
     return {};

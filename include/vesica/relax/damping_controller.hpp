@@ -11,9 +11,9 @@
 
 namespace vesica::relax {
 
-/// speed: alpha = gain / ||v_nu||;  ratio: keep ||v_tau|| / ||v_nu|| within [lower_ratio,
-/// upper_ratio] (3.4); paper: the same rule with the constants of the paper;  fixed: alpha =
-/// initial.
+/// How the damping is chosen. speed: alpha = gain / ||v_nu||; ratio: keep ||v_tau|| / ||v_nu||
+/// within [lower_ratio, upper_ratio] (3.4); paper: the same rule with the constants of the paper;
+/// fixed: alpha = initial.
 enum class DampingKind { speed, ratio, paper, fixed };
 
 }  // namespace vesica::relax
@@ -29,8 +29,8 @@ struct EnumNames<relax::DampingKind> {
 
 namespace vesica::relax {
 
-/// Tangential damping alpha of (3.4). alpha is measured in R_c^2/k_kappa. What is not given takes
-/// the default of its kind (`resolved_damping`).
+/// Options of the tangential damping alpha of (3.4). alpha is measured in R_c^2/k_kappa. What is
+/// not given takes the default of its kind (`resolved_damping`).
 struct DampingOptions {
   DampingKind kind = DampingKind::speed;
   std::optional<double> initial;
@@ -69,7 +69,8 @@ struct DampingOptions {
                 Users(ratio, paper)},
           self.upper_ratio);
   }
-  /// Refuses limits and ratios in the wrong order, and a start outside of the limits.
+  /// Throws ConfigError for limits and ratios in the wrong order, and a start outside of the
+  /// limits.
   void check_together() const;
 };
 
@@ -80,7 +81,7 @@ struct DampingOptions {
 /// Chooses alpha between steps from the velocity norms.
 class DampingController final : public Controller {
  public:
-  /// `scales` of the case give the units in which the options are meant.
+  /// Makes the controller. The `scales` of the case give the units in which the options are meant.
   DampingController(const DampingOptions& options, const problem::Scales& scales);
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
 

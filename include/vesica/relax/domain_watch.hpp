@@ -18,13 +18,14 @@ class DomainWatch {
  public:
   explicit DomainWatch(model::Schedule interface_width);
 
-  /// To be called after every step and at the start; events that are certain now.
+  /// Looks at the domains and returns the events that are certain now. To be called at the start
+  /// and after every step.
   [[nodiscard]] std::vector<Event> look(const StepView& view);
-  /// Once, at the end: changes that have not lasted for three steps.
+  /// Returns the changes that have not lasted for three steps. To be called once, at the end.
   [[nodiscard]] std::vector<Event> finish() const;
 
  private:
-  /// A number that may be the new one.
+  /// A number of domains that may be the new one.
   struct Change {
     int number = 0;
     long step = 0;

@@ -11,8 +11,8 @@ namespace vesica::relax {
 /// files complete.
 class InterruptController final : public Controller {
  public:
-  /// `signal` is written by the signal handler: the number of the signal, 0 as long as there is
-  /// none. It must outlive the controller.
+  /// Makes the controller. `signal` is written by the signal handler: the number of the signal, 0
+  /// as long as there is none. It must outlive the controller.
   explicit InterruptController(const std::atomic<int>& signal) : signal_(signal) {}
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
   [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;

@@ -9,7 +9,7 @@
 
 namespace vesica::relax {
 
-/// The controller of `options.method`; `enabled` is left to the caller.
+/// Makes the controller of `options.method`. It does not look at `options.enabled`.
 [[nodiscard]] std::unique_ptr<Controller> make_mesh_controller(const AdaptionOptions& options,
                                                                const model::Model& model,
                                                                const problem::Scales& scales);

@@ -14,8 +14,8 @@
 
 namespace vesica::relax {
 
-/// local: remeshing towards a size field; bisection: Section 3.5 of the paper; conformal: the same,
-/// and images of a sphere mesh where the quality falls, Section 3.6.
+/// How a mesh is changed. local: remeshing towards a size field; bisection: Section 3.5 of the
+/// paper; conformal: the same, and images of a sphere mesh where the quality falls, Section 3.6.
 enum class MeshMethod { local, bisection, conformal };
 
 }  // namespace vesica::relax
@@ -101,7 +101,7 @@ struct AdaptionOptions {
                 Users(conformal)},
           self.conformal_quality);
   }
-  /// Refuses fields that are changed but not used by the method.
+  /// Throws ConfigError for fields that are changed but not used by the method.
   void check_together() const;
 };
 
@@ -119,7 +119,7 @@ struct AdaptionOptions {
 /// none yet.
 class MeshController final : public Controller {
  public:
-  /// `scales` of the case give the units of max_size and of the velocity.
+  /// Makes the controller. The `scales` of the case give the units of max_size and of the velocity.
   MeshController(const AdaptionOptions& options, model::Model model, const problem::Scales& scales);
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
   [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;

@@ -25,7 +25,7 @@ namespace vesica::relax {
 /// becomes a domain of its own, and RunStatus::neck_closes elsewhere.
 class NeckController final : public Controller {
  public:
-  /// `scales` of the case give R_c and the unit of the velocity.
+  /// Makes the controller. The `scales` of the case give R_c and the unit of the velocity.
   NeckController(const model::Model& model, const problem::Scales& scales);
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
   [[nodiscard]] std::vector<Request> respond_to_failure(const StepView& view) override;
@@ -33,7 +33,8 @@ class NeckController final : public Controller {
 
  private:
   void look(const StepView& view);
-  /// The neck of the last look is thinner than this, shrinks, and the vesicle moves.
+  /// Tells whether the neck that was last found is thinner than `radius` and shrinks, and the
+  /// vesicle moves.
   [[nodiscard]] bool closes(const StepView& view, double radius) const;
   [[nodiscard]] std::vector<Request> stop_if_closing(const StepView& view) const;
   [[nodiscard]] Stop stop(const StepView& view) const;

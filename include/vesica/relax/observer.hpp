@@ -10,14 +10,16 @@
 
 namespace vesica::relax {
 
-/// What observers and controllers see after an accepted step (and once before the first: step 0).
+/// State, report and measured values that observers and controllers see after an accepted step (and
+/// once before the first: step 0).
 struct StepView {
   const problem::State& state;
   const solve::StepReport& report;
   const measure::Diagnostics& diagnostics;
 };
 
-/// Something worth a line in the log: a change of the mesh, of the number of phase domains.
+/// An event that is worth a line in the log: a change of the mesh or of the number of phase
+/// domains.
 struct Event {
   long step = 0;
   double time = 0;  ///< [time]
@@ -53,8 +55,8 @@ struct MeshChange {
   }
 };
 
-/// Why a run ended. The numbers are not the exit status; `exit_status` in relax/verdict.hpp maps
-/// them.
+/// Reason why a run ended. The numbers are not the exit status; `exit_status` in relax/verdict.hpp
+/// maps them.
 enum class RunStatus {
   converged,
   end_time,
@@ -114,19 +116,19 @@ class Observer {
   Observer& operator=(const Observer&) = delete;
   virtual ~Observer() = default;
 
-  /// After every accepted step; step 0 is the start.
+  /// Is called after every accepted step; step 0 is the start.
   virtual void observe(const StepView& view) = 0;
-  /// After a change of the mesh, with the state on the new one.
+  /// Is called after a change of the mesh, with the state on the new one.
   virtual void mesh_changed(const StepView& view, const MeshChange& change) {
     (void)view;
     (void)change;
   }
-  /// As soon as it is noticed; a change of the mesh after `mesh_changed`.
+  /// Is called as soon as an event is noticed; for a change of the mesh after `mesh_changed`.
   virtual void happened(const StepView& view, const Event& event) {
     (void)view;
     (void)event;
   }
-  /// Once, after the last step, with the final state. Also after a failure.
+  /// Is called once, after the last step, with the final state; also after a failure.
   virtual void finish(const StepView& view, const Outcome& outcome) {
     (void)view;
     (void)outcome;

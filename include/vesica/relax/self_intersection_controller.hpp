@@ -12,7 +12,8 @@ namespace vesica::relax {
 /// in an equilibrium or at a limit (measure::self_intersections).
 class SelfIntersectionController final : public Controller {
  public:
-  /// With the `every_steps` of the frames, the last frame before the end shows no intersection.
+  /// Makes the controller. With the `every_steps` of the frames, the last frame before the end
+  /// shows no intersection.
   explicit SelfIntersectionController(long every_steps) : every_steps_(every_steps) {}
   [[nodiscard]] std::vector<Request> respond(const StepView& view) override;
   [[nodiscard]] std::vector<Request> respond_to_rest(const StepView& view) override;

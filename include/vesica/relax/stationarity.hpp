@@ -11,7 +11,7 @@
 
 namespace vesica::relax {
 
-/// When a run ends.
+/// Options that tell when a run ends.
 struct StopOptions {
   double normal_velocity = 1e-3;
   double constraint = 1e-8;
@@ -61,28 +61,33 @@ struct StopOptions {
   }
 };
 
-/// The stopping criterion and the limits of a run. A state is an equilibrium when
-///   ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity,
-///   no multiplier, in k/R_c^3 (volume) or k/R_c^2 (area, phase), changed by more than
-///   multiplier_change times the largest (or 1, when all are small) in any of the last rest_steps,
-///   every relative constraint error is below constraint,
-///   (a method that reports its distance to the minimum: that is below `gradient` instead of the
-///   two conditions above),
-///   and the last steps_without_newton took no Newton iteration (rule of 3.4; IDA always iterates).
+/// The stopping criterion and the limits of a run. A state is an equilibrium when all of these
+/// hold:
+///
+/// - ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity;
+/// - no multiplier, in k/R_c^3 (volume) or k/R_c^2 (area, phase), changed by more than
+///   multiplier_change times the largest (or 1, when all are small) in any of the last rest_steps;
+/// - every relative constraint error is below constraint;
+/// - the last steps_without_newton took no Newton iteration (rule of 3.4; IDA always iterates).
+///
+/// For a method that reports its distance to the minimum, that distance below `gradient` replaces
+/// the conditions on velocity and multipliers.
 class Stationarity {
  public:
   Stationarity(const StopOptions& options, const model::Model& model);
 
-  /// To be called once a step: whether velocity and multipliers are at rest.
+  /// Tells whether velocity and multipliers are at rest. To be called once a step.
   [[nodiscard]] bool is_at_rest(const StepView& view);
-  /// After a change of the mesh: the multipliers have to rest anew.
+  /// Forgets the last steps after a change of the mesh: the multipliers have to rest anew.
   void forget_steps();
-  /// ||v_nu|| / R_c, best-fit rigid motion removed [length/time].
+  /// Returns ||v_nu|| / R_c, best-fit rigid motion removed [length/time].
   [[nodiscard]] static double normal_velocity(const measure::Diagnostics& diagnostics);
-  /// Velocity, or for a method that reports it the distance to the minimum.
+  /// Tells whether the velocity, or for a method that reports it the distance to the minimum, is
+  /// below its threshold.
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
+  /// Tells whether every relative error of the constraints is below its threshold.
   [[nodiscard]] bool meets_constraints(const measure::Diagnostics& diagnostics) const;
-  /// The limit that is reached, if any.
+  /// Returns the stop for the limit that is reached; absent when none is.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
 
  private:

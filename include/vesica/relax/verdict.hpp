@@ -11,12 +11,11 @@
 
 namespace vesica::relax {
 
-/// What a run ended with: the content of `verdict.json`.
+/// The verdict on a run, the content of `verdict.json`.
 struct Verdict {
   relax::Outcome outcome;
   std::string method;  ///< name of the integrator, as in the case file
-  /// Whose equilibrium the run looked for: that of the weak form ("paper") or of the discrete
-  /// energy
+  /// Equations whose equilibrium the run looked for: the weak form ("paper") or the discrete energy
   /// ("variational").
   std::string scheme;
   double time = 0;  ///< [time]
@@ -28,7 +27,7 @@ struct Verdict {
   std::int32_t num_nodes = 0;
   std::int32_t num_triangles = 0;
 
-  /// The layout of `verdict.json`.
+  /// Visits the values in the layout of `verdict.json`.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     auto& outcome = self.outcome;
@@ -56,12 +55,12 @@ struct Verdict {
   }
 };
 
-/// The verdict on `state`, the last good one.
+/// Makes the verdict on a run that ended with `outcome` in `state`, the last good one.
 [[nodiscard]] Verdict make_verdict(relax::Outcome outcome, const solve::SolverOptions& solver,
                                    const model::Model& model, const problem::State& state);
 
-/// Exit status of the program: 0 converged, 1 stopped before convergence, 3 numerical failure, 128
-/// + signal interrupted (130 SIGINT, 143 SIGTERM).
+/// Returns the exit status of the program: 0 converged, 1 stopped before convergence, 3 numerical
+/// failure, 128 + signal interrupted (130 SIGINT, 143 SIGTERM).
 [[nodiscard]] int exit_status(const relax::Outcome& outcome);
 
 }  // namespace vesica::relax

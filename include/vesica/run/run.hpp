@@ -16,7 +16,7 @@
 
 namespace vesica::run {
 
-/// Says what a program adds to a configuration: files or none, progress, its own observers and
+/// Options that a program adds to a configuration: files or none, progress, its own observers and
 /// controllers, an interrupt. What its pointers name must outlive the call.
 struct Options {
   bool writes_files = true;           ///< false: neither the output folder nor a file is made
@@ -32,7 +32,7 @@ struct Options {
   const std::atomic<int>* interrupt = nullptr;
 };
 
-/// Holds how a run ended, where, and what was odd about its case.
+/// Result of a run: how it ended, its last good state, and warnings about its case.
 struct Result {
   relax::Verdict verdict;             ///< with the outcome: status, reason, energies, counts
   problem::State state;               ///< the last good one
@@ -60,7 +60,7 @@ struct Result {
 /// throw.
 [[nodiscard]] Result run(const config::RunConfig& config, const Options& options = {});
 
-/// Relaxes a case that is there already, made by `prepare` or by setup::case_of from a surface of
+/// Relaxes a case that the program has made, by `prepare` or by setup::case_of from a surface of
 /// the program's own; `config.shape`, `config.phase` and `options.resumed` are not used then.
 [[nodiscard]] Result run(const config::RunConfig& config, const setup::Case& vesicle,
                          const Options& options = {});

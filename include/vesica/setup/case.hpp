@@ -11,28 +11,31 @@
 
 namespace vesica::setup {
 
-/// What "initial" stands for. A run that goes on with another keeps the origin of that one.
+/// The measures that "initial" stands for: those of the surface with which a run, or the first run
+/// of a chain of resumed runs, began.
 struct Origin {
   model::Measures measures;
   bool is_sphere = false;  ///< then volume and area are one constraint
 };
 
-/// A run ready to be computed.
+/// A case that is ready to be relaxed: model, start, and what "initial" stands for.
 struct Case {
   model::Model model;
-  problem::State
-      start;  ///< positions and order parameter; curvature, rates and multipliers are zero
+  /// Positions and order parameter of the start; curvature, rates and multipliers are zero, unless
+  /// the case goes on with an older run (io::resumed_case).
+  problem::State start;
   Origin origin;
   std::vector<std::string> warnings;  ///< legal input that probably is not meant, one sentence each
 };
 
-/// Surface, initial phase, targets and material of the configuration. Throws ConfigError when they
-/// do not fit together, the surface has several pieces or no mesh method for its genus, IoError
-/// when a surface or phase file cannot be read.
+/// Makes surface, initial phase, targets and material of the configuration. Throws ConfigError when
+/// they do not fit together, the surface has several pieces or no mesh method for its genus,
+/// IoError when a surface or phase file cannot be read.
 [[nodiscard]] Case make_case(const config::RunConfig& config);
 
-/// The same with a start that is there already: positions and, for two phases, order parameter.
-/// Without `origin` it is its own. Throws ConfigError.
+/// Makes the case of a configuration with the given start, which has positions and, for two phases,
+/// the order parameter; `config.shape` and `config.phase` are not used. Without `origin`, "initial"
+/// stands for the measures of `start`. Throws ConfigError.
 [[nodiscard]] Case case_of(const config::RunConfig& config, problem::State start,
                            const std::optional<Origin>& origin = {});
 

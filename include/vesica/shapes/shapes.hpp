@@ -11,6 +11,7 @@
 
 namespace vesica::shapes {
 
+/// Kind of a starting shape; make_shape describes each.
 enum class ShapeKind { capsule, sphere, ellipsoid, torus, peanut, tips, file };
 
 /// Polyhedron that the sphere's triangulation is made from.
@@ -44,7 +45,7 @@ struct EnumNames<shapes::SphereBase> {
 
 namespace vesica::shapes {
 
-/// A starting shape. Each kind reads its own keys; the others are ignored.
+/// Options of a starting shape. Each kind reads its own keys; the others are ignored.
 struct ShapeOptions {
   ShapeKind kind = ShapeKind::capsule;
   int resolution = 6;
@@ -108,7 +109,8 @@ struct ShapeOptions {
     visit(Field{"flip", "-", "turn a surface that is inside out", Rule::any, Users(file)},
           self.flip);
   }
-  /// Refuses values that make no shape together, and shapes of more than 20 million nodes.
+  /// Throws ConfigError for values that make no shape together, and shapes of more than 20 million
+  /// nodes.
   void check_together() const;
 };
 
@@ -121,8 +123,7 @@ struct ShapeOptions {
 ///   ellipsoid  (x / a)^2 + (y / b)^2 + (z / c)^2 = 1
 ///   torus      around z, centred at 0
 ///   peanut     x = length / 2 (1 - s), rho = sqrt(1 - s^2) (waist / 2 + b s^2), s in [-1, 1], with
-///   b
-///              such that the largest 2 rho is the diameter; placed and triangulated like the
+///              b such that the largest 2 rho is the diameter; placed and triangulated like the
 ///              capsule
 ///   tips       |x| = radius + tip_height sum_k exp((cos angle(x, t_k) - 1) / tip_width^2) with the
 ///              n directions t_k of Section 4.4

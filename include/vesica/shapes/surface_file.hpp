@@ -22,8 +22,8 @@ namespace vesica::shapes {
 /// refuses the surface. `flip` turns a surface that is inside out.
 [[nodiscard]] mesh::Surface read_surface(const std::string& path, bool flip);
 
-/// Middle of the smooth curve over the edge from `a` to `b` whose surface has unit normals
-/// `normal_a`, `normal_b` there:
+/// Returns the middle of the smooth curve over the edge from `a` to `b` whose surface has unit
+/// normals `normal_a`, `normal_b` there:
 ///
 ///     (a + b)/2 + |b - a|/4 (tan(d_a/2) + tan(d_b/2)) n,   sin d_a = -(b - a).n_a / |b - a|,
 ///                                                          sin d_b =  (b - a).n_b / |b - a|

@@ -11,8 +11,13 @@
 
 namespace vesica::solve {
 
+/// Method that solves the equations: adaptive flow with IDA, the semi-implicit scheme of the paper,
+/// or minimisation of the discrete energy.
 enum class Method { ida, semi_implicit, minimize };
+/// Equations of the flow: the weak form of the paper, or the gradient flow of the discrete energy.
 enum class Scheme { paper, variational };
+/// How Newton's linear systems are solved: by GMRES with the factors as preconditioner, or
+/// directly.
 enum class NewtonMode { krylov, direct };
 
 }  // namespace vesica::solve
@@ -40,8 +45,8 @@ struct EnumNames<solve::NewtonMode> {
 
 namespace vesica::solve {
 
-/// How the equations are solved. Times are in [length^4/energy]: the mobility of the gradient flow
-/// is 1.
+/// Options that tell how the equations are solved. Times are in [length^4/energy]: the mobility of
+/// the gradient flow is 1.
 struct SolverOptions {
   Method method = Method::ida;
   Scheme scheme = Scheme::paper;
@@ -109,7 +114,7 @@ struct SolverOptions {
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }
-  /// Refuses what the method cannot do.
+  /// Refuses options that the method cannot carry out. Throws ConfigError.
   void check_together() const;
 };
 

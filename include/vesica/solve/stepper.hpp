@@ -9,7 +9,7 @@
 
 namespace vesica::solve {
 
-/// Work done since the stepper was made.
+/// Counts of the work done since the stepper was made.
 struct SolverCounts {
   long steps = 0;
   long newton = 0;
@@ -37,8 +37,8 @@ struct SolverCounts {
   }
 };
 
-/// Seconds by part. relax() measures those of the processor around the calls of steppers and
-/// controllers, and adds controllers to the total.
+/// Seconds that parts of a run took. relax() measures those of the processor around the calls of
+/// steppers and controllers, and adds controllers to the total.
 struct SolverSeconds {
   double processor = 0;
   double total = 0;
@@ -68,7 +68,7 @@ struct Curvature {
   Eigen::VectorXd mode;  ///< its normal displacement at the nodes, shape (N), largest modulus 1
 };
 
-/// What the polish of an equilibrium found.
+/// Report of the polish of an equilibrium.
 struct PolishReport {
   bool is_converged = false;
   int iterations = 0;   ///< Newton iterations; of the weak form: implicit steps
@@ -85,7 +85,7 @@ struct PolishReport {
 
 enum class StepStatus { accepted, failed };
 
-/// What one step did. A failed step leaves the state at the last accepted one and says why.
+/// Report of one step. A failed step leaves the state at the last accepted one and says why.
 struct StepReport {
   StepStatus status = StepStatus::accepted;
   double time = 0;       ///< time reached [time]
@@ -108,7 +108,7 @@ struct StepReport {
   }
 };
 
-/// Advances a State that it owns. One of the five abstract classes of the library.
+/// A method that advances a State that it owns. One of the five abstract classes of the library.
 class Stepper {
  public:
   Stepper() = default;
@@ -116,16 +116,17 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
   virtual ~Stepper() = default;
 
+  /// Returns the state after the last accepted step.
   [[nodiscard]] virtual const problem::State& state() const = 0;
-  /// Energy of the state where the method has a discrete energy of its own, in place of the one
-  /// that measure::measure() integrates.
+  /// Returns the energy of the state where the method has a discrete energy of its own, in place of
+  /// the one that measure::measure() integrates.
   [[nodiscard]] virtual std::optional<model::EnergyParts> energy() const { return std::nullopt; }
-  /// One step, not beyond `end_time`. Numerical trouble is a status, not an exception.
+  /// Makes one step, not beyond `end_time`. Numerical trouble is a status, not an exception.
   virtual StepReport step(double end_time) = 0;
   /// Takes the constraints of an almost resting state to round-off, and with `polish` the state to
   /// the equilibrium; optional for a method.
   virtual StepReport finish() = 0;
-  /// Tangential damping alpha of equation (b) from the next step on [length^2/energy].
+  /// Sets the tangential damping alpha of equation (b) from the next step on [length^2/energy].
   virtual void set_damping(double alpha) = 0;
 };
 

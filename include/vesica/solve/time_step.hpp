@@ -12,6 +12,7 @@ struct TimeStep {
 
   std::optional<double> value;  ///< [length^4/energy]; absent: (eps/30)^2
 
+  /// Returns the step [length^4/energy] for an interface width [length].
   [[nodiscard]] double resolved(double interface_width) const {
     return value.value_or(interface_width * interface_width / 900);
   }
