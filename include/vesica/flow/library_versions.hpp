@@ -4,7 +4,7 @@
 
 namespace vesica::flow {
 
-/// Version of SUNDIALS this library was compiled with, "major.minor.patch".
+/// Returns the version of SUNDIALS this library was compiled with, "major.minor.patch".
 [[nodiscard]] std::string sundials_version();
 
 }  // namespace vesica::flow

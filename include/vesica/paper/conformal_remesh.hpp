@@ -10,8 +10,8 @@
 
 namespace vesica::paper {
 
-/// Global remeshing of Section 3.6: a mesh of the unit sphere is laid on the surface by the inverse
-/// of its conformal map, so it keeps its angles. Sizes are what the map makes of them, so the
+/// Meshes a surface anew by Section 3.6: a mesh of the unit sphere is laid on it by the inverse of
+/// its conformal map, so it keeps its angles. Sizes are what the map makes of them, so the
 /// sphere mesh (an icosahedron to begin with) is bisected where its image has elements larger than
 /// wanted, wanted_diameters with the fields of the old nodes, until there are none or `max_nodes`
 /// nodes are reached. All nodes are points of the old quadratic surface, mid-edge nodes the closest
