@@ -12,6 +12,7 @@ struct ShapeValues {
   std::array<double, 6> dv{};
 };
 
+/// Computes the shape functions and their derivatives at (u, v).
 [[nodiscard]] constexpr ShapeValues shape_values(double u, double v) {
   const double w = 1 - u - v;
   ShapeValues s;
