@@ -76,17 +76,17 @@ std::string agreement(const Difference& difference) {
 /// What the polish of the two runs tells about their equilibria. A flow may come to rest on a
 /// saddle.
 std::string kind_of_equilibria(const ComparedRun& first, const ComparedRun& second) {
-  std::vector<std::string> saddles;
+  std::string saddles;
   bool are_known = true;
   for (const ComparedRun* run : {&first, &second}) {
     const auto& polish = run->verdict.outcome.report.polish;
     are_known = are_known && polish;
     if (polish && polish->curvature.value < 0) {
-      saddles.push_back(fmt::format("that of {} is a saddle, lowest curvature {:.3g}", run->name,
-                                    polish->curvature.value));
+      saddles += fmt::format("{}that of {} is a saddle, lowest curvature {:.3g}",
+                             saddles.empty() ? "" : "; ", run->name, polish->curvature.value);
     }
   }
-  if (!saddles.empty()) return fmt::format("{}", fmt::join(saddles, "; "));
+  if (!saddles.empty()) return saddles;
   return are_known ? "two local minima" : "two local minima, unless one is a saddle";
 }
 
