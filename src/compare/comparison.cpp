@@ -34,28 +34,28 @@ bool has_converged(const ComparedRun& run) {
 }
 
 /// "shapes differ by 0.21 R_c" for everything that is beyond its tolerance.
-std::vector<std::string> contradictions(const Difference& difference, const relax::Verdict& first,
-                                        const relax::Verdict& second,
-                                        const EquilibriumTolerances& tolerances) {
-  std::vector<std::string> found;
+std::string contradictions(const Difference& difference, const relax::Verdict& first,
+                           const relax::Verdict& second, const EquilibriumTolerances& tolerances) {
+  std::string found;
+  const auto add = [&found](const std::string& text) {
+    found += fmt::format("{}{}", found.empty() ? "" : ", ", text);
+  };
   // written so that a value that is no number is a contradiction
   if (!(std::abs(difference.relative_energy) <= tolerances.energy)) {
-    found.push_back(fmt::format("energies differ by {:.1e} (relative, tolerance {:g})",
-                                std::abs(difference.relative_energy), tolerances.energy));
+    add(fmt::format("energies differ by {:.1e} (relative, tolerance {:g})",
+                    std::abs(difference.relative_energy), tolerances.energy));
   }
   if (!(difference.shape.l2 <= tolerances.shape_l2)) {
-    found.push_back(fmt::format("shapes by {:.1e} R_c (tolerance {:g})", difference.shape.l2,
-                                tolerances.shape_l2));
+    add(fmt::format("shapes by {:.1e} R_c (tolerance {:g})", difference.shape.l2,
+                    tolerances.shape_l2));
   }
   const double phase_l2 = difference.shape.phase_l2.value_or(0);
   if (!(phase_l2 <= tolerances.phase_l2)) {
-    found.push_back(
-        fmt::format("phase fields by {:.1e} (tolerance {:g})", phase_l2, tolerances.phase_l2));
+    add(fmt::format("phase fields by {:.1e} (tolerance {:g})", phase_l2, tolerances.phase_l2));
   }
   if (first.shape.domains_1 != second.shape.domains_1 ||
       first.shape.domains_2 != second.shape.domains_2) {
-    found.push_back(
-        fmt::format("numbers of domains: {} + {} and {} + {}", first.shape.domains_1.value_or(0),
+    add(fmt::format("numbers of domains: {} + {} and {} + {}", first.shape.domains_1.value_or(0),
                     first.shape.domains_2.value_or(0), second.shape.domains_1.value_or(0),
                     second.shape.domains_2.value_or(0)));
   }
@@ -91,11 +91,10 @@ std::string kind_of_equilibria(const ComparedRun& first, const ComparedRun& seco
 }
 
 std::string disagreement(const Difference& difference, const std::string& kind,
-                         const std::vector<std::string>& found) {
+                         const std::string& found) {
   return fmt::format("{} and {} found different equilibria ({}), {} the lower one: {}",
                      difference.first, difference.second, kind,
-                     difference.energy < 0 ? difference.second : difference.first,
-                     fmt::join(found, ", "));
+                     difference.energy < 0 ? difference.second : difference.first, found);
 }
 
 void conclude(const ComparedRun& first, const ComparedRun& second,
