@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/refuse.hpp"
 #include "phase_file.hpp"
@@ -25,21 +26,28 @@ Eigen::VectorXd shifted(const PhaseLevels& levels, double shift) {
 /// Shift beyond which all levels are saturated: c = -1 or +1 in double precision.
 double saturation(PhaseProfile profile) { return profile == PhaseProfile::tanh ? 20.0 : 1.0; }
 
-/// int h(c), the sum that the constraint takes.
-double phase_integral(const mesh::Surface& surface, const Eigen::VectorXd& c) {
-  double sum = 0;
+/// The quadrature points of a surface, whose geometry is the same for every c.
+std::vector<fem::SurfaceSample> samples_of(const mesh::Surface& surface) {
+  std::vector<fem::SurfaceSample> samples;
   fem::for_each_point(*surface.triangulation, surface.positions,
-                      [&](const fem::SurfaceSample& sample) {
-                        sum += sample.weight * model::phase_indicator(fem::scalar_at(c, sample));
-                      });
+                      [&](const fem::SurfaceSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
+/// int h(c), the sum that the constraint takes.
+double phase_integral(const std::vector<fem::SurfaceSample>& samples, const Eigen::VectorXd& c) {
+  double sum = 0;
+  for (const fem::SurfaceSample& sample : samples)
+    sum += sample.weight * model::phase_indicator(fem::scalar_at(c, sample));
   return sum;
 }
 
 /// Levels shifted so that int h(c) = target. Bisection to the last bit: the integral is continuous
 /// in the shift, but with quadratic shape functions not strictly monotone.
 Eigen::VectorXd match(const PhaseLevels& levels, const mesh::Surface& surface, double target) {
+  const auto samples = samples_of(surface);
   const auto error = [&](double shift) {
-    return phase_integral(surface, shifted(levels, shift)) - target;
+    return phase_integral(samples, shifted(levels, shift)) - target;
   };
   double low = -levels.values.maxCoeff() - saturation(levels.profile);
   double high = -levels.values.minCoeff() + saturation(levels.profile);
