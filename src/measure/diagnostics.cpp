@@ -51,13 +51,11 @@ model::SurfacePoint<double> point_of(const problem::State& state,
 template <class List, class Point>
 void add_integrals(const model::Physics& physics, const Point& point, double weight,
                    std::array<std::optional<double>, std::tuple_size_v<List>>& sum) {
-  std::size_t place = 0;
-  model::for_each_term<List>([&]<class Term>() {
+  model::for_each_term<List>([&]<class Term>(std::size_t place) {
     if (model::takes_part<Term>(physics)) {
       sum[place] =
           sum[place].value_or(0.0) + weight * model::density_of<Term>(physics.material, point);
     }
-    ++place;
   });
 }
 
@@ -76,14 +74,12 @@ void integrate(const model::Physics& physics, const problem::State& state, Diagn
 model::PerConstraint constraint_errors(const model::Model& model, double time,
                                        const model::Measures& measures) {
   model::PerConstraint errors;
-  std::size_t place = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
     if (measures[place] && model.targets[place]) {
       const double target = model.targets[place]->value(time);
       errors[place] =
           (*measures[place] - target) / model::error_scale<Constraint>(target, measures.area());
     }
-    ++place;
   });
   return errors;
 }

@@ -17,9 +17,8 @@ namespace {
 /// Calls visit.operator()<Constraint>() for the constraint at a place of the list.
 template <class Visit>
 void with_constraint(std::size_t place, const Visit& visit) {
-  std::size_t candidate = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
-    if (candidate++ == place) visit.template operator()<Constraint>();
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t candidate) {
+    if (candidate == place) visit.template operator()<Constraint>();
   });
 }
 

@@ -153,7 +153,7 @@ void check_reduced_volume(const ConstraintOptions& options, const Targets& targe
 
 void check_single_phase(const ConstraintOptions& options) {
   constexpr std::string_view rule = "must be left out: the vesicle has a single phase";
-  for_each_term<Constraints>([&]<class Constraint>() {
+  for_each_term<Constraints>([&]<class Constraint>(std::size_t) {
     const Target& target = options.targets.of<Constraint>();
     if (Constraint::needs_phase_field && target.kind == TargetKind::prescribed)
       refuse(Constraint::key, model::text_of(target.schedule), rule);
@@ -194,7 +194,7 @@ void ConstraintOptions::check_together() const {
 Targets make_targets(const ConstraintOptions& options, const Measures& start, bool is_two_phase) {
   check("constraints", options);
   Targets targets;
-  for_each_term<Constraints>([&]<class Constraint>() {
+  for_each_term<Constraints>([&]<class Constraint>(std::size_t) {
     if (Constraint::needs_phase_field && !is_two_phase) return;
     targets.of<Constraint>() = resolve(options.targets.of<Constraint>(), start.of<Constraint>());
   });

@@ -25,7 +25,7 @@ struct CollectSchedules {
 std::vector<NamedSchedule> schedules_of(const Model& model) {
   std::vector<NamedSchedule> result;
   MaterialOptions::fields(model.material, CollectSchedules{result});
-  for_each_term<Constraints>([&]<class Constraint>() {
+  for_each_term<Constraints>([&]<class Constraint>(std::size_t) {
     const auto& target = model.targets.of<Constraint>();
     if (target) result.push_back({"constraints", Constraint::key, *target});
   });

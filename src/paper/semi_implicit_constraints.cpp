@@ -125,11 +125,10 @@ Eigen::MatrixXd SemiImplicitProblem::constraint_slopes(const problem::Fields& fi
         for (Eigen::Index column = 0; column < m; ++column) {
           const auto change = displacement_at(solution, 1 + column, block_size(), triangle,
                                               point.shape, frame.normal);
-          Eigen::Index row = 0;
-          model::for_each_term<model::Constraints>([&]<class Constraint>() {
+          model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t row) {
             const auto v = model::variation_of_term<Constraint>(material, surface);
-            elements[at(t)](row++, column) += point.weight * frame.area_element *
-                                              (v.a * change.normal + v.s * change.order_parameter);
+            elements[at(t)](row, column) += point.weight * frame.area_element *
+                                            (v.a * change.normal + v.s * change.order_parameter);
           });
         }
       }

@@ -190,13 +190,11 @@ inline void put_constraint_sides(const SemiImplicitContext& context,
                                  const fem::TangentFrame<double>& frame,
                                  const model::SurfacePoint<double>& surface,
                                  std::array<Integrand, side::count>& out) {
-  std::size_t index = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t index) {
     const auto v = model::variation_of_term<Constraint>(context.point.physics.material, surface);
     const double tau = context.time_step;
     out[side::constraints + index] = integrand(frame, tau * v.a, tau * v.b);
     out[side::phase_constraints + index] = integrand(frame, tau * v.s, tau * v.q);
-    ++index;
   });
 }
 

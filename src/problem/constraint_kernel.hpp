@@ -48,8 +48,7 @@ PointFields<T> point_fields(const ElementNodes<T>& nodes, const fem::ShapeValues
 template <class T, class Visit>
 void for_each_constraint(const model::Physics& physics, const model::LocalPoint<T>& point,
                          const Visit& visit) {
-  std::size_t place = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
     static_assert(model::LocalTerm<Constraint>,
                   "a constraint needs add_to(): a density that does not look at the curvature");
     if (model::takes_part<Constraint>(physics)) {
@@ -57,7 +56,6 @@ void for_each_constraint(const model::Physics& physics, const model::LocalPoint<
       Constraint::add_to(physics.material, point, 1.0, f);
       visit(place, f);
     }
-    ++place;
   });
 }
 

@@ -218,8 +218,7 @@ void add_multiplier_columns(const model::Physics& physics, const ElementValues& 
     const auto in = point_inputs(element, shape);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const auto surface = surface_point(in, frame, interpolated_shape_operator(element, shape));
-    std::size_t place = 0;
-    model::for_each_term<model::Constraints>([&]<class Constraint>() {
+    model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
       PointOutputs<double> out;
       put_variation(model::variation_of_term<Constraint>(physics.material, surface), frame, out);
       for (std::size_t i = 0; i < 6; ++i) {
@@ -229,7 +228,6 @@ void add_multiplier_columns(const model::Physics& physics, const ElementValues& 
               (shape.value[i] * out[r][0] + shape.du[i] * out[r][1] + shape.dv[i] * out[r][2]);
         }
       }
-      ++place;
     });
   }
 }

@@ -45,8 +45,7 @@ inline void add_densities(const model::Physics& physics, const EnergyPoint<doubl
   const auto point = local_point(in, frame);
   sum[model::place_of<model::Energies, model::BendingEnergy>] +=
       weight * bending_density(physics, in);
-  std::size_t place = 0;
-  model::for_each_term<model::Energies>([&]<class Energy>() {
+  model::for_each_term<model::Energies>([&]<class Energy>(std::size_t place) {
     if constexpr (model::LocalTerm<Energy>) {
       model::LocalDensity<double> f;
       if (model::takes_part<Energy>(physics)) Energy::add_to(physics.material, point, 1.0, f);
@@ -55,8 +54,19 @@ inline void add_densities(const model::Physics& physics, const EnergyPoint<doubl
       static_assert(has_own_discrete_form<Energy>,
                     "an energy needs add_to(), or a form of its own in the discrete energy");
     }
-    ++place;
   });
+}
+
+/// Sets the derivative of the integrand of E_h with respect to p and its derivatives.
+template <class T>
+void put_moment_derivative(const model::Physics& physics, const EnergyPoint<T>& in,
+                           const fem::TangentFrame<T>& frame, EnergyPoint<T>& out) {
+  const auto& m = physics.material;
+  const T k = model::interpolate(m.bending_rigidity, in.c);
+  const T curvature = model::interpolate(m.spontaneous_curvature, in.c);
+  out.p = frame.area_element * (curvature * frame.normal - (1.0 / k) * in.p);
+  out.p_u = cross(in.x_v, frame.normal);
+  out.p_v = cross(frame.normal, in.x_u);
 }
 
 /// Computes the derivative of the integrand of E_h + sum lambda_i C_i without the Gaussian term,
@@ -94,9 +104,7 @@ EnergyPoint<T> energy_point_gradient(const model::Physics& physics, const Multip
       derivative_of<T>(local, point, in, frame, physics.is_two_phase, bending_by_n);
   out.x_u = out.x_u + cross(in.p_v, nu);
   out.x_v = out.x_v + cross(nu, in.p_u);
-  out.p = area * (curvature * nu - (1.0 / k) * in.p);
-  out.p_u = cross(in.x_v, nu);
-  out.p_v = cross(nu, in.x_u);
+  put_moment_derivative(physics, in, frame, out);
   return out;
 }
 

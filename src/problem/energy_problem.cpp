@@ -148,8 +148,10 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
       for (const auto& point : fem::triangle_rule()) {
         const auto& shape = point.shape;
         const auto in = energy_point(element, shape);
-        const auto out = energy_point_gradient(physics, {}, in);  // at p = 0
-        const double density = point.weight * norm(cross(in.x_u, in.x_v)) /
+        const auto frame = fem::tangent_frame(in.x_u, in.x_v);
+        EnergyPoint<double> out;
+        put_moment_derivative(physics, in, frame, out);  // at p = 0
+        const double density = point.weight * frame.area_element /
                                model::interpolate(physics.material.bending_rigidity, in.c);
         for (std::size_t i = 0; i < 6; ++i) {
           add(point.weight * test_with(shape, i, out.p, out.p_u, out.p_v),
@@ -186,14 +188,12 @@ model::EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
     }
   });
   model::EnergyParts sum;
-  std::size_t place = 0;
-  model::for_each_term<model::Energies>([&]<class Energy>() {
+  model::for_each_term<model::Energies>([&]<class Energy>(std::size_t place) {
     if (model::takes_part<Energy>(physics)) {
       double total = 0;
       for (const auto& part : parts) total += part[place];
       sum[place] = total;
     }
-    ++place;
   });
   const auto& k_g = physics.material.gaussian_rigidity;
   const double mean = model_.is_two_phase ? 0.5 * (k_g.phase_1 + k_g.phase_2) : k_g.phase_1;

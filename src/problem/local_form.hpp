@@ -53,9 +53,8 @@ PointFields<T> derivative_of(const model::LocalDensity<T>& f, const model::Local
 template <class List, class T, class Factor>
 void add_local_terms(const model::Physics& physics, const model::LocalPoint<T>& point,
                      const Factor& factor_of, model::LocalDensity<T>& sum) {
-  std::size_t place = 0;
-  model::for_each_term<List>([&]<class Term>() {
-    const double factor = factor_of(place++);
+  model::for_each_term<List>([&]<class Term>(std::size_t place) {
+    const double factor = factor_of(place);
     if constexpr (model::LocalTerm<Term>) {
       if (factor != 0 && model::takes_part<Term>(physics))
         Term::add_to(physics.material, point, factor, sum);

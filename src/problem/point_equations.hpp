@@ -74,11 +74,11 @@ model::Variation<T> lagrangian_variation(const PointSettings& settings,
                                          const model::SurfacePoint<T>& point) {
   model::Variation<T> sum;
   model::LocalDensity<T> local;
-  model::for_each_term<model::Energies>(
-      [&]<class Energy>() { add_variation<Energy>(settings.physics, point, 1, sum, local); });
-  std::size_t place = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
-    add_variation<Constraint>(settings.physics, point, settings.multipliers[place++], sum, local);
+  model::for_each_term<model::Energies>([&]<class Energy>(std::size_t) {
+    add_variation<Energy>(settings.physics, point, 1, sum, local);
+  });
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
+    add_variation<Constraint>(settings.physics, point, settings.multipliers[place], sum, local);
   });
   sum.add(1.0, variation_of(local, point));
   return sum;

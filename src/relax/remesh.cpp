@@ -65,7 +65,7 @@ Eigen::VectorXd integrals_of(const problem::State& state) {
 std::vector<adapt::NodalChange> restoring_changes(const problem::State& state) {
   const Eigen::Index n = state.values.positions.rows();
   std::vector<adapt::NodalChange> changes;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t) {
     if (Constraint::needs_phase_field && !state.is_two_phase()) return;
     Eigen::VectorXd change(n);
     for (Eigen::Index i = 0; i < n; ++i) {

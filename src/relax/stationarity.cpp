@@ -16,11 +16,9 @@ namespace {
 std::array<double, model::num_constraints> in_natural_units(const model::PerConstraint& multipliers,
                                                             double radius, double rigidity) {
   std::array<double, model::num_constraints> result{};
-  std::size_t place = 0;
-  model::for_each_term<model::Constraints>([&]<class Constraint>() {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
     result[place] =
         multipliers[place].value_or(0) * std::pow(radius, Constraint::length_power) / rigidity;
-    ++place;
   });
   return result;
 }

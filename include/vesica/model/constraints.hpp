@@ -23,7 +23,7 @@ struct Target {
 /// constraint declares as `default_target`.
 [[nodiscard]] inline PerTerm<Constraints, Target> default_targets() {
   PerTerm<Constraints, Target> targets;
-  for_each_term<Constraints>([&]<class Constraint>() {
+  for_each_term<Constraints>([&]<class Constraint>(std::size_t) {
     if constexpr (requires { Constraint::default_target; })
       targets.of<Constraint>().kind = Constraint::default_target;
   });
@@ -39,9 +39,8 @@ struct ConstraintOptions {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    std::size_t place = 0;
-    for_each_term<Constraints>([&]<class Constraint>() {
-      visit(Field{Constraint::key, Constraint::unit, Constraint::meaning}, self.targets[place++]);
+    for_each_term<Constraints>([&]<class Constraint>(std::size_t place) {
+      visit(Field{Constraint::key, Constraint::unit, Constraint::meaning}, self.targets[place]);
     });
     visit(Field{"reduced_volume", "-",
                 "instead of volume: v_r = V / (4 pi R_c^3 / 3), R_c = sqrt(A / 4 pi)",

@@ -76,11 +76,9 @@ template <class Constraint>
 /// difference counts only where there is a phase field.
 [[nodiscard]] inline std::vector<int> active_constraints(const Model& model) {
   std::vector<int> active;
-  std::size_t place = 0;
-  for_each_term<Constraints>([&]<class Constraint>() {
+  for_each_term<Constraints>([&]<class Constraint>(std::size_t place) {
     if (model.targets[place] && (model.is_two_phase || !Constraint::needs_phase_field))
       active.push_back(static_cast<int>(place));
-    ++place;
   });
   return active;
 }

@@ -33,9 +33,8 @@ struct PerTerm {
   /// Visits the values under the names of their terms, as the fields of options are visited.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    std::size_t place = 0;
-    for_each_term<List>([&]<class Term>() {
-      visit(Field{Term::name, "", Term::name}, self.values[place++]);
+    for_each_term<List>([&]<class Term>(std::size_t place) {
+      visit(Field{Term::name, "", Term::name}, self.values[place]);
     });
   }
 };
@@ -74,9 +73,8 @@ struct Measures : PerTerm<Constraints, std::optional<double>> {
   /// Visits the values under the keys that the quantities have in a case file.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
-    std::size_t place = 0;
-    for_each_term<Constraints>([&]<class Constraint>() {
-      visit(Field{Constraint::key, Constraint::unit, Constraint::key}, self.values[place++]);
+    for_each_term<Constraints>([&]<class Constraint>(std::size_t place) {
+      visit(Field{Constraint::key, Constraint::unit, Constraint::key}, self.values[place]);
     });
   }
 };

@@ -25,22 +25,21 @@ using Constraints = std::tuple<Volume, Area, PhaseDifference>;
 inline constexpr std::size_t num_energies = std::tuple_size_v<Energies>;
 inline constexpr int num_constraints = static_cast<int>(std::tuple_size_v<Constraints>);
 
-/// Calls visit.operator()<Term>() for every type of a list, in its order.
+/// Calls visit.operator()<Term>(place) for every type of a list, in its order.
 template <class List, class Visit>
 constexpr void for_each_term(Visit&& visit) {
   [&]<class... Term>(std::tuple<Term...>*) {
-    (visit.template operator()<Term>(), ...);
+    std::size_t place = 0;
+    (visit.template operator()<Term>(place++), ...);
   }(static_cast<List*>(nullptr));
 }
 
 /// The place of a term in its list; does not compile for a type that is not in it.
 template <class List, class Term>
 inline constexpr std::size_t place_of = [] {
-  std::size_t place = 0;
   std::size_t found = std::tuple_size_v<List>;
-  for_each_term<List>([&]<class Candidate>() {
+  for_each_term<List>([&]<class Candidate>(std::size_t place) {
     if (std::is_same_v<Candidate, Term>) found = place;
-    ++place;
   });
   return found;
 }();
