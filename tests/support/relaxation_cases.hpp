@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -63,6 +64,22 @@ inline RelaxationCase table_1_case(int resolution) {
   result.model.targets = {11 * pi / 12, 4 * pi, 4.71};
   result.start = start_on(surface);
   result.start.values.order_parameter = phase::initial_phase({}, surface, 0.3, 4.71);
+  return result;
+}
+
+/// The case of Table 1 in other units: lengths times `length`, energies times `energy`.
+inline RelaxationCase in_units(const RelaxationCase& c, double length, double energy) {
+  RelaxationCase result = c;
+  result.start.values.positions *= length;
+  auto& material = result.model.material;
+  material.bending_rigidity = {1.5 * energy, energy};
+  material.line_tension = material.line_tension.scaled(energy / length);
+  material.interface_width = material.interface_width.scaled(length);
+  material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t) {
+    auto& target = result.model.targets.of<Constraint>();
+    if (target) target = target->scaled(std::pow(length, Constraint::length_power));
+  });
   return result;
 }
 

@@ -115,24 +115,6 @@ TEST(IdaStepper, StaysConsistentWhenTheDampingIsSetBeforeTheFirstStep) {
   EXPECT_LT(relative_residual(c, stepper->state()), 1e-8);
 }
 
-/// The case in other units: lengths times `length`, energies times `energy`.
-RelaxationCase in_units(const RelaxationCase& c, double length, double energy) {
-  RelaxationCase result = c;
-  result.start.values.positions *= length;
-  auto& material = result.model.material;
-  material.bending_rigidity = {1.5 * energy, energy};
-  material.line_tension = material.line_tension.scaled(energy / length);
-  material.interface_width = material.interface_width.scaled(length);
-  material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
-  auto& targets = result.model.targets;
-  targets.of<model::Volume>() =
-      model::Schedule(targets.of<model::Volume>()->last() * length * length * length);
-  targets.of<model::Area>() = model::Schedule(targets.of<model::Area>()->last() * length * length);
-  targets.of<model::PhaseDifference>() =
-      model::Schedule(targets.of<model::PhaseDifference>()->last() * length * length);
-  return result;
-}
-
 TEST(IdaStepper, DoesNotDependOnTheUnitsOfLengthAndEnergy) {
   const auto plain = test::table_1_case(2);
   const auto scaled = in_units(plain, 10, 20);

@@ -80,21 +80,9 @@ TEST(CeresStepper, CurvatureOfASphereIsMinusTwoOverItsRadius) {
 
 TEST(CeresStepper, TakesTheSameStepsInOtherUnits) {
   const auto c = test::table_1_case(2);
-  auto scaled = c;
   const double length = 1e-3;
   const double energy = 1e5;
-  auto& material = scaled.model.material;
-  material.bending_rigidity = {1.5 * energy, energy};
-  material.line_tension = material.line_tension.scaled(energy / length);
-  material.interface_width = material.interface_width.scaled(length);
-  material.kinetic_coefficient = material.kinetic_coefficient.scaled(length);
-  auto& targets = scaled.model.targets;
-  targets.of<model::Volume>() =
-      model::Schedule(targets.of<model::Volume>()->last() * length * length * length);
-  targets.of<model::Area>() = model::Schedule(targets.of<model::Area>()->last() * length * length);
-  targets.of<model::PhaseDifference>() =
-      model::Schedule(targets.of<model::PhaseDifference>()->last() * length * length);
-  scaled.start.values.positions *= length;
+  const auto scaled = test::in_units(c, length, energy);
   const auto here = test::run_case(c, minimize());
   const auto there = test::run_case(scaled, minimize());
   EXPECT_EQ(here.counts().steps, there.counts().steps);
