@@ -9,18 +9,6 @@
 #include "volume_below.hpp"
 
 namespace vesica::mesh {
-namespace {
-
-template <class Visitor>
-void for_each_side(const Triangulation& triangulation, const Positions& positions, Visitor visit) {
-  for (const QuadraticTriangle& nodes : triangulation.triangles()) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      visit((positions.row(nodes[i]) - positions.row(nodes[(i + 1) % 3])).norm());
-    }
-  }
-}
-
-}  // namespace
 
 double smallest_sine(const std::array<Eigen::Vector3d, 3>& p) {
   const std::array<double, 3> sides = {(p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
@@ -42,18 +30,6 @@ double quality(const Triangulation& triangulation, const Positions& positions) {
     }
   }
   return smallest;
-}
-
-double longest_edge(const Triangulation& triangulation, const Positions& positions) {
-  double longest = 0;
-  for_each_side(triangulation, positions, [&](double side) { longest = std::max(longest, side); });
-  return longest;
-}
-
-double mean_edge(const Triangulation& triangulation, const Positions& positions) {
-  double sum = 0;
-  for_each_side(triangulation, positions, [&](double side) { sum += side; });
-  return sum / (3.0 * triangulation.num_triangles());
 }
 
 std::vector<double> element_areas(const Triangulation& triangulation, const Positions& positions) {

@@ -24,11 +24,6 @@ namespace vesica::mesh {
 [[nodiscard]] double smallest_normal_cosine(const Triangulation& triangulation,
                                             const Positions& positions);
 
-/// Returns the longest distance between two corners of one triangle [length].
-[[nodiscard]] double longest_edge(const Triangulation& triangulation, const Positions& positions);
-/// Returns the mean distance between two corners of one triangle [length].
-[[nodiscard]] double mean_edge(const Triangulation& triangulation, const Positions& positions);
-
 /// Returns the area of the four sub-triangles together of each triangle [length^2], shape
 /// (num_triangles).
 [[nodiscard]] std::vector<double> element_areas(const Triangulation& triangulation,

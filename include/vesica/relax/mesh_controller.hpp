@@ -82,6 +82,15 @@ struct AdaptionOptions {
     visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
                 Rule::at_least_one, Users(local)},
           self.min_steps);
+    bisection_fields(self, visit);
+  }
+  /// Throws ConfigError for fields that are changed but not used by the method.
+  void check_together() const;
+
+ private:
+  template <class Self, class Visitor>
+  static void bisection_fields(Self& self, Visitor&& visit) {
+    using enum MeshMethod;
     visit(Field{"n_in", "-",
                 "interface_width over the diameter of elements in the phase "
                 "interface",
@@ -101,8 +110,6 @@ struct AdaptionOptions {
                 Users(conformal)},
           self.conformal_quality);
   }
-  /// Throws ConfigError for fields that are changed but not used by the method.
-  void check_together() const;
 };
 
 /// Asks for a new mesh when the present one no longer fits. With L the wanted size of edges, coarse

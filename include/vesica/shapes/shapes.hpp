@@ -87,6 +87,16 @@ struct ShapeOptions {
     visit(Field{"radius", "length", "radius", Rule::positive, Users(sphere, tips)}, self.radius);
     visit(Field{"semi_axes", "length", "semi-axes along x, y, z", Rule::positive, Users(ellipsoid)},
           self.semi_axes);
+    other_fields(self, visit);
+  }
+  /// Throws ConfigError for values that make no shape together, and shapes of more than 20 million
+  /// nodes.
+  void check_together() const;
+
+ private:
+  template <class Self, class Visitor>
+  static void other_fields(Self& self, Visitor&& visit) {
+    using enum ShapeKind;
     visit(Field{"major_radius", "length", "from the centre to the middle of the tube",
                 Rule::positive, Users(torus)},
           self.major_radius);
@@ -109,9 +119,6 @@ struct ShapeOptions {
     visit(Field{"flip", "-", "turn a surface that is inside out", Rule::any, Users(file)},
           self.flip);
   }
-  /// Throws ConfigError for values that make no shape together, and shapes of more than 20 million
-  /// nodes.
-  void check_together() const;
 };
 
 /// Builds a starting shape with outward orientation; all nodes, mid-edge nodes included, lie on:

@@ -95,6 +95,15 @@ struct SolverOptions {
         Field{"constraint_rate", "k/R_c^4", "gamma of d/dt C + gamma C = 0, pulls constraints back",
               Rule::positive, Users(ida)},
         self.constraint_rate);
+    other_fields(self, visit);
+  }
+  /// Refuses options that the method cannot carry out. Throws ConfigError.
+  void check_together() const;
+
+ private:
+  template <class Self, class Visitor>
+  static void other_fields(Self& self, Visitor&& visit) {
+    using enum Method;
     visit(Field{"time_step", "length^4/energy",
                 "fixed step, a number or \"(eps/30)^2\" with eps = interface_width", Rule::positive,
                 Users(semi_implicit)},
@@ -114,8 +123,6 @@ struct SolverOptions {
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }
-  /// Refuses options that the method cannot carry out. Throws ConfigError.
-  void check_together() const;
 };
 
 }  // namespace vesica::solve
