@@ -32,6 +32,13 @@ std::vector<NamedSchedule> schedules_of(const Model& model) {
   return result;
 }
 
+Physics Model::at(double time) const {
+  Physics physics{material.at(time), is_two_phase};
+  for (std::size_t place = 0; place < targets.values.size(); ++place)
+    physics.is_free[place] = !targets[place];
+  return physics;
+}
+
 double Model::next_kink(double time) const {
   double next = std::numeric_limits<double>::infinity();
   for (const auto& named : schedules_of(*this))

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "curvature_form.hpp"
 #include "local_form.hpp"
 #include "vesica/fem/quadrature.hpp"
 #include "vesica/fem/surface_element.hpp"
@@ -9,27 +11,12 @@
 
 namespace vesica::problem {
 
-/// Positions and order parameter of the six nodes of an element.
-template <class T>
-struct ElementNodes {
-  std::array<Vec3<T>, 6> x;
-  std::array<T, 6> c;
-};
-
 /// Exact gradients of the constrained functionals with respect to the nodal values of an element.
 template <class T>
 struct ConstraintGradients {
   std::array<std::array<Vec3<T>, 6>, model::num_constraints> dx{};
   std::array<std::array<T, 6>, model::num_constraints> dc{};
 };
-
-/// Interpolates nodal values of an element, scalars or vectors, with the weights of the nodes.
-template <class V>
-V interpolate_nodes(const std::array<V, 6>& nodes, const std::array<double, 6>& weights) {
-  V sum = weights[0] * nodes[0];
-  for (std::size_t i = 1; i < 6; ++i) sum = sum + weights[i] * nodes[i];
-  return sum;
-}
 
 template <class T>
 PointFields<T> point_fields(const ElementNodes<T>& nodes, const fem::ShapeValues& shape,
@@ -42,19 +29,31 @@ PointFields<T> point_fields(const ElementNodes<T>& nodes, const fem::ShapeValues
   return in;
 }
 
-/// Calls visit.operator()<Constraint>(place, density) for the constraints that take part at a
-/// point. Their discrete functionals are functions of the positions and of c alone, so that (e) can
-/// be their exact derivative.
+/// Calls visit(place, density) for the constraints without curvature that take part at a point. All
+/// discrete functionals are functions of the positions and of c alone, so that (e) can be their exact
+/// derivative; those that look at the curvature are distributional curvatures.
 template <class T, class Visit>
-void for_each_constraint(const model::Physics& physics, const model::LocalPoint<T>& point,
-                         const Visit& visit) {
+void for_each_local_constraint(const model::Physics& physics, const model::LocalPoint<T>& point,
+                               const Visit& visit) {
   model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
-    static_assert(model::LocalTerm<Constraint>,
-                  "a constraint needs add_to(): a density that does not look at the curvature");
-    if (model::takes_part<Constraint>(physics)) {
+    if constexpr (model::LocalTerm<Constraint>) {
+      if (!model::takes_part<Constraint>(physics)) return;
       model::LocalDensity<T> f;
       Constraint::add_to(physics.material, point, 1.0, f);
       visit(place, f);
+    }
+  });
+}
+
+/// Calls visit.operator()<Constraint>(place) for the constraints that look at the curvature and have
+/// a target. Free ones are left out, because their angles at the edges need the normals.
+template <class Visit>
+void for_each_curved_constraint(const model::Physics& physics, const Visit& visit) {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
+    if constexpr (!model::LocalTerm<Constraint>) {
+      static_assert(model::CurvatureTerm<Constraint>,
+                    "a constraint needs add_to(), or a distributional curvature and its weight");
+      if (!physics.is_free[place]) visit.template operator()<Constraint>(place);
     }
   });
 }
@@ -68,10 +67,13 @@ std::array<T, model::num_constraints> element_constraint_values(const ElementNod
     const auto in = point_fields(nodes, point.shape, physics.is_two_phase);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const T area = point.weight * frame.area_element;
-    for_each_constraint(
+    for_each_local_constraint(
         physics, local_point(in, frame),
         [&](std::size_t place, const model::LocalDensity<T>& f) { sum[place] += area * f.value; });
   }
+  for_each_curved_constraint(physics, [&]<class Constraint>(std::size_t place) {
+    sum[place] = curvature_integral<Constraint>(physics.material, nodes);
+  });
   return sum;
 }
 
@@ -84,7 +86,7 @@ ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes
     const auto in = point_fields(nodes, shape, physics.is_two_phase);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const auto at = local_point(in, frame);
-    for_each_constraint(physics, at, [&](std::size_t place, const model::LocalDensity<T>& f) {
+    for_each_local_constraint(physics, at, [&](std::size_t place, const model::LocalDensity<T>& f) {
       const auto d = derivative_of(f, at, in, frame, physics.is_two_phase);
       for (std::size_t i = 0; i < 6; ++i) {
         const double value = point.weight * shape.value[i];
@@ -95,6 +97,33 @@ ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes
           sum.dc[place][i] = sum.dc[place][i] + value * d.c + du * d.c_u + dv * d.c_v;
       }
     });
+  }
+  for_each_curved_constraint(physics, [&]<class Constraint>(std::size_t place) {
+    add_curvature_gradient<Constraint>(physics.material, 1.0, nodes, sum.dx[place], sum.dc[place]);
+  });
+  return sum;
+}
+
+/// Computes the constrained functionals of a surface, in the order of model::Constraints; those of
+/// `order_parameter` need it, shape (N), and are left at 0 for an empty one. Sums over triangles run
+/// in a fixed order.
+inline std::array<double, model::num_constraints> constraint_values(
+    const model::Physics& physics, const mesh::Triangulation& triangulation,
+    const mesh::Positions& positions, const Eigen::VectorXd& order_parameter, int threads) {
+  const auto directions = shared_directions(physics, triangulation, positions);
+  std::vector<std::array<double, model::num_constraints>> elements(
+      static_cast<std::size_t>(triangulation.num_triangles()));
+  parallel_for(triangulation.num_triangles(), threads, [&](int begin, int end) {
+    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
+      const auto& triangle = triangulation.triangles()[t];
+      auto nodes = element_nodes(physics, positions, order_parameter, triangle);
+      put_directions(directions, triangle, nodes);
+      elements[t] = element_constraint_values(nodes, physics);
+    }
+  });
+  std::array<double, model::num_constraints> sum{};
+  for (const auto& element : elements) {
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += element[k];
   }
   return sum;
 }

@@ -16,7 +16,7 @@ constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 /// The inputs that are differentiated, in this order: x, x_u, x_v, p, p_u, p_v, (c, u, v), x'.
 using EnergyDual = Dual<24>;
 /// s, x_u, x_v, x_uu, x_uv, x_vv.
-using GaussianDual = Dual<16>;
+using CurvatureDual = Dual<16>;
 
 /// What the assembly of one element needs besides its fields. Unknowns of a node: p (0, 1, 2),
 /// displacement along its direction (3), c (4).
@@ -128,38 +128,42 @@ void add_energy_point(const ElementContext& context, const EnergyElement& elemen
   }
 }
 
-/// One output of a Gaussian term, differentiated with respect to the displacements and c.
-OutputRow<5> gaussian_row(const ElementContext& context, const fem::ShapeValues& shape,
-                          const std::array<double, 6>& weight_derivatives,
-                          const GaussianDual& output) {
+/// One output of a distributional curvature, differentiated with respect to displacements and c.
+template <int Block>
+OutputRow<Block> curvature_row(const ElementContext& context, const fem::ShapeValues& shape,
+                               const std::array<double, 6>& weight_derivatives,
+                               const CurvatureDual& output) {
   constexpr auto second = fem::shape_second_derivatives();
   const auto& d = output.derivatives;
-  OutputRow<5> row{};
+  OutputRow<Block> row{};
   for (std::size_t j = 0; j < 6; ++j) {
     const auto along = [&](std::size_t k) {
       return shape.du[j] * d[1 + k] + shape.dv[j] * d[4 + k] + second.duu[j] * d[7 + k] +
              second.duv[j] * d[10 + k] + second.dvv[j] * d[13 + k];
     };
     const auto& n = context.directions[j];
-    row[5 * j + 3] = context.weights.value * (n.x * along(0) + n.y * along(1) + n.z * along(2));
-    row[5 * j + 4] = context.weights.value * shape.value[j] * d[0] * weight_derivatives[j];
+    row[Block * j + 3] = context.weights.value * (n.x * along(0) + n.y * along(1) + n.z * along(2));
+    if constexpr (Block == 5)
+      row[5 * j + 4] = context.weights.value * shape.value[j] * d[0] * weight_derivatives[j];
   }
   return row;
 }
 
-void add_gaussian_term(const ElementContext& context, const fem::ShapeValues& shape, double weight,
-                       const std::array<double, 6>& weight_derivatives,
-                       const GaussianPoint<GaussianDual>& g, fem::ElementMatrix<5>& matrix) {
+template <int Block>
+void add_curvature_point(const ElementContext& context, const fem::ShapeValues& shape,
+                         double weight, const std::array<double, 6>& weight_derivatives,
+                         const CurvaturePoint<CurvatureDual>& g,
+                         fem::ElementMatrix<Block>& matrix) {
   constexpr auto second = fem::shape_second_derivatives();
-  const std::array<const Vec3<GaussianDual>*, 5> outputs{&g.x_u, &g.x_v, &g.x_uu, &g.x_uv, &g.x_vv};
-  std::array<VectorRows<5>, 5> rows;
-  for (std::size_t kind = 0; kind < 5; ++kind) {
-    const auto& a = *outputs[kind];
-    rows[kind] = {gaussian_row(context, shape, weight_derivatives, a.x),
-                  gaussian_row(context, shape, weight_derivatives, a.y),
-                  gaussian_row(context, shape, weight_derivatives, a.z)};
-  }
-  const auto by_weight = gaussian_row(context, shape, weight_derivatives, g.s);
+  const auto row_of = [&](const CurvatureDual& output) {
+    return curvature_row<Block>(context, shape, weight_derivatives, output);
+  };
+  const std::array<const Vec3<CurvatureDual>*, 5> outputs{&g.x_u, &g.x_v, &g.x_uu, &g.x_uv,
+                                                          &g.x_vv};
+  std::array<VectorRows<Block>, 5> rows;
+  for (std::size_t kind = 0; kind < 5; ++kind)
+    rows[kind] = {row_of(outputs[kind]->x), row_of(outputs[kind]->y), row_of(outputs[kind]->z)};
+  const auto by_weight = row_of(g.s);
   for (std::size_t i = 0; i < 6; ++i) {
     const std::array<double, 5> test{shape.du[i], shape.dv[i], second.duu[i], second.duv[i],
                                      second.dvv[i]};
@@ -167,40 +171,53 @@ void add_gaussian_term(const ElementContext& context, const fem::ShapeValues& sh
     const std::array<double, 3> direction{n.x, n.y, n.z};
     for (std::size_t kind = 0; kind < 5; ++kind) {
       for (std::size_t k = 0; k < 3; ++k)
-        add_scaled<5>(weight * test[kind] * direction[k], rows[kind][k], matrix[5 * i + 3]);
+        add_scaled<Block>(weight * test[kind] * direction[k], rows[kind][k], matrix[Block * i + 3]);
     }
-    add_scaled<5>(weight * shape.value[i] * weight_derivatives[i], by_weight, matrix[5 * i + 4]);
+    if constexpr (Block == 5)
+      add_scaled<5>(weight * shape.value[i] * weight_derivatives[i], by_weight, matrix[5 * i + 4]);
   }
 }
 
-/// Second derivative of the Gaussian term sum_i s(c_i) int phi_i dK of one element.
-void add_gaussian_hessian(const ElementContext& context, const EnergyElement& element,
-                          fem::ElementMatrix<5>& matrix) {
-  const auto s = gaussian_weights(context.physics, element);
+CurvaturePoint<CurvatureDual> as_inputs(const CurvaturePoint<double>& values) {
+  DualInputs<CurvatureDual> inputs;
+  CurvaturePoint<CurvatureDual> in;
+  in.s = inputs.scalar(values.s);
+  in.x_u = inputs.vector(values.x_u);
+  in.x_v = inputs.vector(values.x_v);
+  in.x_uu = inputs.vector(values.x_uu);
+  in.x_uv = inputs.vector(values.x_uv);
+  in.x_vv = inputs.vector(values.x_vv);
+  in.normal = values.normal;
+  return in;
+}
+
+/// Adds `factor` times the second derivative of sum_i s(c_i) int phi_i dK (or dkappa) of an element.
+template <class Term, int Block>
+void add_curvature_hessian(const ElementContext& context, double factor,
+                           const EnergyElement& element, fem::ElementMatrix<Block>& matrix) {
+  const auto& material = context.physics.material;
+  const auto s = curvature_weights<Term, double>(material, element);
   std::array<double, 6> first{};
   std::array<double, 6> second{};
   for (std::size_t i = 0; i < 6; ++i) {
-    const auto d = gaussian_weight_derivative(context.physics, Dual<1>::input(element.c[i], 0));
+    const auto d = Term::curvature_weight_derivative(material, Dual<1>::input(element.c[i], 0));
     first[i] = d.value;
     second[i] = d.derivatives[0];
   }
-  std::array<double, 6> by_weight = element.vertex_angle;
-  for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
-    const auto values = gaussian_point(element, s, shape);
-    DualInputs<GaussianDual> inputs;
-    GaussianPoint<GaussianDual> in;
-    in.s = inputs.scalar(values.s);
-    in.x_u = inputs.vector(values.x_u);
-    in.x_v = inputs.vector(values.x_v);
-    in.x_uu = inputs.vector(values.x_uu);
-    in.x_uv = inputs.vector(values.x_uv);
-    in.x_vv = inputs.vector(values.x_vv);
-    const auto gradient = term(in).gradient;
-    for (std::size_t i = 0; i < 6; ++i) by_weight[i] += weight * shape.value[i] * gradient.s.value;
-    add_gaussian_term(context, shape, weight, first, gradient, matrix);
-  });
-  for (std::size_t i = 0; i < 6; ++i)
-    matrix[5 * i + 4][5 * i + 4] += context.weights.value * second[i] * by_weight[i];
+  std::array<double, 6> by_weight{};
+  if constexpr (Term::curvature == model::Curvature::gauss) by_weight = element.vertex_angle;
+  for_each_curvature_point<Term::curvature>(
+      [&](const fem::ShapeValues& shape, double weight, const auto& integrand) {
+        const auto in = as_inputs(curvature_point<double>(element, s, shape));
+        const auto gradient = integrand(in).gradient;
+        for (std::size_t i = 0; i < 6; ++i)
+          by_weight[i] += weight * shape.value[i] * gradient.s.value;
+        add_curvature_point<Block>(context, shape, factor * weight, first, gradient, matrix);
+      });
+  if constexpr (Block == 5) {
+    for (std::size_t i = 0; i < 6; ++i)
+      matrix[5 * i + 4][5 * i + 4] += factor * context.weights.value * second[i] * by_weight[i];
+  }
 }
 
 }  // namespace
@@ -211,22 +228,21 @@ void EnergyProblem::assemble_hessian(const EnergyFields& fields, const Multiplie
                                      const JacobianWeights& weights,
                                      linalg::SparseMatrix& matrix) const {
   const auto physics = model_.at(fields.time);
+  const Surroundings around{vertex_angles_,
+                            shared_directions(physics, *triangulation_, fields.positions)};
   std::vector<double> blocks(at(triangulation_->num_triangles()) * 36 * Block * Block);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       const auto& triangle = triangulation_->triangles()[at(t)];
       ElementContext context{physics, multipliers, weights, {}};
-      auto element = energy_element(fields, rates, triangle);
-      for (std::size_t i = 0; i < 6; ++i) {
-        context.directions[i] = row_of(directions, triangle[i]);
-        element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      }
+      const auto element = energy_element(fields, rates, triangle, around);
+      for (std::size_t i = 0; i < 6; ++i) context.directions[i] = row_of(directions, triangle[i]);
       fem::ElementMatrix<Block> local{};
       for (const auto& point : fem::triangle_rule())
         add_energy_point<Block>(context, element, point, local);
-      if constexpr (Block == 5) {
-        if (has_gaussian_term(physics)) add_gaussian_hessian(context, element, local);
-      }
+      for_each_curvature_term(physics, multipliers, [&]<class Term>(double factor) {
+        add_curvature_hessian<Term, Block>(context, factor, element, local);
+      });
       fem::store_blocks<Block>(local, &blocks[at(t) * 36 * Block * Block]);
     }
   });

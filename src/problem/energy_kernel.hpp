@@ -17,14 +17,12 @@ struct EnergyPoint : PointFields<T> {
   Vec3<T> p, p_u, p_v;  ///< bending moment -k_kappa (kappa - kappa_s) nu [energy/length]
 };
 
-/// True for the energies that E_h does not take from a density without curvature: each has a form
-/// of its own, in this file and in gaussian_kernel.hpp. Others need add_to() or do not compile.
+/// True for the energies that have a form of their own in E_h, in this file, instead of a density
+/// without curvature or a distributional curvature.
 template <class Energy>
 inline constexpr bool has_own_discrete_form = false;
 template <>
 inline constexpr bool has_own_discrete_form<model::BendingEnergy> = true;
-template <>
-inline constexpr bool has_own_discrete_form<model::GaussianEnergy> = true;
 
 /// Computes the integrand of the bending energy times N. With n = x_u x x_v, N = |n|:
 ///
@@ -51,8 +49,9 @@ inline void add_densities(const model::Physics& physics, const EnergyPoint<doubl
       if (model::takes_part<Energy>(physics)) Energy::add_to(physics.material, point, 1.0, f);
       sum[place] += weight * frame.area_element * f.value;
     } else {
-      static_assert(has_own_discrete_form<Energy>,
-                    "an energy needs add_to(), or a form of its own in the discrete energy");
+      static_assert(model::CurvatureTerm<Energy> || has_own_discrete_form<Energy>,
+                    "an energy needs add_to(), a distributional curvature with its weight, or a "
+                    "form of its own in the discrete energy");
     }
   });
 }

@@ -21,18 +21,6 @@ namespace {
 
 constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-Eigen::VectorXd angles_per_element(const mesh::Triangulation& triangulation,
-                                   const fem::NodeGraph& graph) {
-  Eigen::VectorXd angles = Eigen::VectorXd::Zero(triangulation.num_nodes());
-  for (const auto& triangle : triangulation.triangles()) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      angles[triangle[i]] =
-          2 * std::numbers::pi / static_cast<double>(graph.incidences(triangle[i]).size());
-    }
-  }
-  return angles;
-}
-
 /// Sums entries of shape (T, 6, count) over the elements of each node, shape (N, count).
 Eigen::MatrixXd gather(const fem::NodeGraph& graph, const std::vector<double>& local,
                        Eigen::Index count, int threads) {
@@ -72,32 +60,17 @@ void add_element_gradient(const model::Physics& physics, const Multipliers& mult
   }
 }
 
-void add_gaussian_gradient(const model::Physics& physics, const EnergyElement& element,
-                           double* local) {
-  constexpr auto second = fem::shape_second_derivatives();
-  const auto s = gaussian_weights(physics, element);
-  std::array<double, 6> by_weight = element.vertex_angle;
-  for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
-    const auto g = term(gaussian_point(element, s, shape)).gradient;
+void add_curvature_terms(const model::Physics& physics, const Multipliers& multipliers,
+                         const EnergyElement& element, double* local) {
+  for_each_curvature_term(physics, multipliers, [&]<class Term>(double factor) {
+    std::array<Vec3<double>, 6> dx{};
+    std::array<double, 6> dc{};
+    add_curvature_gradient<Term, double>(physics.material, factor, element, dx, dc);
     for (std::size_t i = 0; i < 6; ++i) {
-      add(weight * (shape.du[i] * g.x_u + shape.dv[i] * g.x_v + second.duu[i] * g.x_uu +
-                    second.duv[i] * g.x_uv + second.dvv[i] * g.x_vv),
-          local + 7 * i);
-      by_weight[i] += weight * shape.value[i] * g.s;
+      add(dx[i], local + 7 * i);
+      local[7 * i + 6] += dc[i];
     }
   });
-  for (std::size_t i = 0; i < 6; ++i)
-    local[7 * i + 6] += by_weight[i] * gaussian_weight_derivative(physics, element.c[i]);
-}
-
-double gaussian_energy(const model::Physics& physics, const EnergyElement& element) {
-  const auto s = gaussian_weights(physics, element);
-  double sum = 0;
-  for (std::size_t i = 0; i < 6; ++i) sum += s[i] * element.vertex_angle[i];
-  for_each_gaussian_point([&](const fem::ShapeValues& shape, double weight, const auto& term) {
-    sum += weight * term(gaussian_point(element, s, shape)).value;
-  });
-  return sum;
 }
 
 /// A number whose derivative is a rate, or without it.
@@ -111,6 +84,7 @@ T with_rate(double value, double rate) {
 template <class T>
 ElementNodes<T> constraint_nodes(const EnergyElement& element) {
   ElementNodes<T> nodes;
+  nodes.normal = element.normal;
   for (std::size_t i = 0; i < 6; ++i) {
     const auto& x = element.x[i];
     const auto& v = element.velocity[i];
@@ -132,7 +106,7 @@ EnergyProblem::EnergyProblem(std::shared_ptr<const mesh::Triangulation> triangul
     : triangulation_(std::move(triangulation)),
       model_(std::move(model)),
       graph_(*triangulation_),
-      vertex_angles_(angles_per_element(*triangulation_, graph_)),
+      vertex_angles_(vertex_angles(*triangulation_)),
       threads_(resolved_threads(threads)) {}
 
 mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
@@ -144,7 +118,8 @@ mesh::Positions EnergyProblem::moment(const mesh::Positions& positions,
   std::vector<double> rhs(count * 6 * 3, 0.0);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
+      const auto element =
+          energy_element(fields, {}, triangulation_->triangles()[at(t)], {vertex_angles_});
       for (const auto& point : fem::triangle_rule()) {
         const auto& shape = point.shape;
         const auto in = energy_point(element, shape);
@@ -175,29 +150,25 @@ model::EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
   const auto physics = model_.at(fields.time);
   const auto count = at(triangulation_->num_triangles());
   std::vector<std::array<double, model::num_energies>> parts(count);
-  constexpr auto gaussian = model::place_of<model::Energies, model::GaussianEnergy>;
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto& triangle = triangulation_->triangles()[at(t)];
-      auto element = energy_element(fields, {}, triangle);
+      const auto element =
+          energy_element(fields, {}, triangulation_->triangles()[at(t)], {vertex_angles_});
       for (const auto& point : fem::triangle_rule())
         add_densities(physics, energy_point(element, point.shape), point.weight, parts[at(t)]);
-      if (!has_gaussian_term(physics)) continue;
-      for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      parts[at(t)][gaussian] = gaussian_energy(physics, element);
     }
   });
   model::EnergyParts sum;
   model::for_each_term<model::Energies>([&]<class Energy>(std::size_t place) {
-    if (model::takes_part<Energy>(physics)) {
+    if constexpr (model::CurvatureTerm<Energy>) {
+      sum[place] = curvature_energy<Energy>(physics, *triangulation_, vertex_angles_,
+                                            fields.positions, fields.order_parameter, threads_);
+    } else if (model::takes_part<Energy>(physics)) {
       double total = 0;
       for (const auto& part : parts) total += part[place];
       sum[place] = total;
     }
   });
-  const auto& k_g = physics.material.gaussian_rigidity;
-  const double mean = model_.is_two_phase ? 0.5 * (k_g.phase_1 + k_g.phase_2) : k_g.phase_1;
-  *sum[gaussian] += mean * 2 * std::numbers::pi * triangulation_->euler_characteristic();
   check_finite(std::isfinite(sum.total()), "the value");
   return sum;
 }
@@ -218,15 +189,15 @@ Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const 
 EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,
                                      const EnergyRates& rates) const {
   const auto physics = model_.at(fields.time);
+  const Surroundings around{vertex_angles_,
+                            shared_directions(physics, *triangulation_, fields.positions)};
   std::vector<double> local(at(triangulation_->num_triangles()) * 42, 0.0);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto& triangle = triangulation_->triangles()[at(t)];
-      auto element = energy_element(fields, rates, triangle);
+      const auto element =
+          energy_element(fields, rates, triangulation_->triangles()[at(t)], around);
       add_element_gradient(physics, multipliers, element, &local[at(t) * 42]);
-      if (!has_gaussian_term(physics)) continue;
-      for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = vertex_angles_[triangle[i]];
-      add_gaussian_gradient(physics, element, &local[at(t) * 42]);
+      add_curvature_terms(physics, multipliers, element, &local[at(t) * 42]);
     }
   });
   const Eigen::MatrixXd sums = gather(graph_, local, 7, threads_);
@@ -246,9 +217,12 @@ ConstraintEvaluation EnergyProblem::assemble_constraints(const EnergyFields& fie
   std::vector<double> local(count * 6 * row_size, 0.0);
   std::vector<std::array<double, num>> values(count);
   const auto physics = model_.at(fields.time);
+  const Surroundings around{vertex_angles_,
+                            shared_directions(physics, *triangulation_, fields.positions)};
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto element = energy_element(fields, rates, triangulation_->triangles()[at(t)]);
+      const auto element =
+          energy_element(fields, rates, triangulation_->triangles()[at(t)], around);
       const auto nodes = constraint_nodes<T>(element);
       const auto sums = element_constraint_values(nodes, physics);
       const auto gradients = element_constraint_gradients(nodes, physics);

@@ -58,8 +58,10 @@ auto with_block_size(const DofLayout& layout, Visit&& visit) {
 /// Element nodes as dual numbers: derivative = the change of the surface along the rates.
 ElementNodes<Dual<1>> nodes_with_rates(const DofLayout& layout,
                                        const mesh::QuadraticTriangle& triangle,
-                                       const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
+                                       const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                                       const mesh::Positions& directions) {
   ElementNodes<Dual<1>> nodes;
+  put_directions(directions, triangle, nodes);
   const auto block = layout.block_size();
   const auto dual = [&](Eigen::Index row) {
     Dual<1> result(y[row]);
@@ -217,11 +219,12 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
   const auto entry = [&](const Dual<1>& g) {
     return gradient_weight * g.value + second_weight * g.derivatives[0];
   };
-  const model::Physics physics{{}, layout_.is_two_phase()};
+  const auto physics = model_.at(0);  // the constraints do not depend on the material
+  const auto directions = shared_directions(physics, *triangulation_, positions_of(layout_, y));
   rows.setZero();
   for (const auto& triangle : triangulation_->triangles()) {
-    const auto element =
-        element_constraint_gradients(nodes_with_rates(layout_, triangle, y, y_rate), physics);
+    const auto element = element_constraint_gradients(
+        nodes_with_rates(layout_, triangle, y, y_rate, directions), physics);
     for (int k = 0; k < model::num_constraints; ++k) {
       const int row = layout_.multiplier(k);
       if (row < 0) continue;
@@ -239,13 +242,15 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
 
 ConstraintValues RelaxationProblem::constraints(const Eigen::VectorXd& y,
                                                 const Eigen::VectorXd& y_rate) const {
-  const model::Physics physics{{}, layout_.is_two_phase()};
+  const auto physics = model_.at(0);
+  const auto directions = shared_directions(physics, *triangulation_, positions_of(layout_, y));
   std::vector<std::array<Dual<1>, model::num_constraints>> elements(
       at(triangulation_->num_triangles()));
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       elements[at(t)] = element_constraint_values(
-          nodes_with_rates(layout_, triangulation_->triangles()[at(t)], y, y_rate), physics);
+          nodes_with_rates(layout_, triangulation_->triangles()[at(t)], y, y_rate, directions),
+          physics);
     }
   });
   ConstraintValues sum;

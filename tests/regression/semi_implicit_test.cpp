@@ -23,7 +23,9 @@ class Watch final : public relax::Observer {
     if (view.report.counts.steps > 0) {
       const auto& errors = view.diagnostics.constraint_errors;
       for (const auto& error : errors.values)
-        constraint_error = std::max(constraint_error, std::abs(error.value()));
+        constraint_error = std::max(constraint_error, std::abs(error.value_or(0)));
+      has_all_errors = has_all_errors && errors.of<model::Volume>() && errors.of<model::Area>() &&
+                       errors.of<model::PhaseDifference>();
     }
     auto& rise =
         view.diagnostics.velocity.normal_rigid_free > resting_velocity ? moving_rise : resting_rise;
@@ -32,6 +34,7 @@ class Watch final : public relax::Observer {
   }
 
   double constraint_error = 0;
+  bool has_all_errors = true;
   double moving_rise = -std::numeric_limits<double>::infinity();  // relative
   double resting_rise = moving_rise;
 
@@ -74,6 +77,7 @@ TEST(SemiImplicitRegression, FollowsThePaperOnACoarseMesh) {
   run_as_the_paper(2, 0.02, run);
   ASSERT_EQ(run.outcome.status, relax::RunStatus::end_time) << run.outcome.reason;
   EXPECT_EQ(run.outcome.report.counts.steps, 200);
+  EXPECT_TRUE(run.watch.has_all_errors);
   EXPECT_LT(run.watch.constraint_error, 1e-8);
   EXPECT_LT(run.watch.moving_rise, 0);
   EXPECT_GT(run.outcome.smallest_quality, 0.45);

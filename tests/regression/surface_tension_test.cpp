@@ -1,47 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 
-#include "fixed_step_runs.hpp"
+#include "roads.hpp"
 
 namespace vesica {
 namespace {
 
-/// A way to solve a case; the fixed-step scheme takes a few steps, the others go to the end.
-struct Road {
-  const char* name;
-  solve::SolverOptions options;
-  long max_steps;
-};
-
-std::ostream& operator<<(std::ostream& out, const Road& road) { return out << road.name; }
-
-Road weak_form() { return {"weak form", {}, 200}; }
-
-Road variational_flow() {
-  Road road{"variational flow", {}, 200};
-  road.options.scheme = solve::Scheme::variational;
-  road.options.polish = true;
-  return road;
-}
-
-Road minimiser() {
-  Road road{"minimiser", {}, 200};
-  road.options.method = solve::Method::minimize;
-  road.options.polish = true;
-  return road;
-}
-
-Road papers_scheme() { return {"paper's scheme", test::semi_implicit_options(1e-4), 20}; }
-
-class SurfaceTensionOn : public testing::TestWithParam<Road> {};
+class SurfaceTensionOn : public testing::TestWithParam<test::Road> {};
 
 /// With tau = [2, 0] the energy int tau(c) is A + int h(c), so at fixed area and phase difference
 /// every discretisation sees the same shapes: lambda_A and lambda_c fall by exactly 1 and E rises
 /// by tau_1 A_1 = A + int h(c).
 TEST_P(SurfaceTensionOn, ShiftsTwoMultipliersAndTheEnergyAndNothingElse) {
-  const Road& road = GetParam();
+  const test::Road& road = GetParam();
   const auto without = test::table_1_case(2);
   auto with = without;
   with.model.material.surface_tension = {2.0, 0.0};
@@ -67,9 +39,7 @@ TEST_P(SurfaceTensionOn, ShiftsTwoMultipliersAndTheEnergyAndNothingElse) {
   EXPECT_LT((a.state.values.positions - b.state.values.positions).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllRoads, SurfaceTensionOn,
-                         testing::Values(weak_form(), variational_flow(), minimiser(),
-                                         papers_scheme()));
+INSTANTIATE_TEST_SUITE_P(AllRoads, SurfaceTensionOn, testing::ValuesIn(test::all_roads()));
 
 }  // namespace
 }  // namespace vesica

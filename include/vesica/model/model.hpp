@@ -14,11 +14,12 @@ namespace vesica::model {
 /// Targets of the active constraints; an absent one leaves its quantity free.
 using Targets = PerTerm<Constraints, std::optional<Schedule>>;
 
-/// The material at one time, and whether there is a phase field: all that decides which terms take
-/// part.
+/// The material at one time, whether there is a phase field, and which constraints have no target:
+/// all that decides which terms take part.
 struct Physics {
   Material material;
   bool is_two_phase = true;
+  PerTerm<Constraints, bool> is_free{};
 };
 
 /// Tells whether a term takes part: a term that needs the phase field does so only where there is
@@ -41,7 +42,7 @@ struct Model {
   Targets targets;
 
   /// Returns the physics at a time.
-  [[nodiscard]] Physics at(double time) const { return {material.at(time), is_two_phase}; }
+  [[nodiscard]] Physics at(double time) const;
   /// Returns the first time after `time` at which a material parameter or a target has a kink or
   /// jumps; infinity when there is none.
   [[nodiscard]] double next_kink(double time) const;

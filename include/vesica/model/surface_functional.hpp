@@ -90,6 +90,19 @@ concept HasVariation = requires(const Material& material, const SurfacePoint<dou
   { Term::variation(material, point) } -> std::same_as<Variation<double>>;
 };
 
+/// The curvatures that a surface of quadratic elements has as distributions: inside the elements and
+/// concentrated at their edges (and corners).
+enum class Curvature { gauss, mean };
+
+/// A term int s(c) K or int s(c) kappa. The discrete functional is sum_i s(c_i) int phi_i dK, with
+/// `curvature_weight` s and its derivative.
+template <class Term>
+concept CurvatureTerm = requires(const Material& material) {
+  { Term::curvature } -> std::convertible_to<Curvature>;
+  Term::curvature_weight(material, 1.0);
+  Term::curvature_weight_derivative(material, 1.0);
+};
+
 /// Returns the density of a term at a point.
 template <class Term, class T>
 T density_of(const Material& material, const SurfacePoint<T>& point) {

@@ -10,6 +10,7 @@
 #include "vesica/model/line_energy.hpp"
 #include "vesica/model/phase_difference.hpp"
 #include "vesica/model/surface_tension.hpp"
+#include "vesica/model/total_mean_curvature.hpp"
 #include "vesica/model/volume.hpp"
 
 namespace vesica::model {
@@ -18,9 +19,9 @@ namespace vesica::model {
 /// here.
 using Energies = std::tuple<BendingEnergy, GaussianEnergy, LineEnergy, SurfaceTension>;
 
-/// The list of the constrained functionals of (2.2), (2.3), in the order of the multipliers. A new
-/// constraint is a type like these, named here.
-using Constraints = std::tuple<Volume, Area, PhaseDifference>;
+/// The list of the constrained functionals: those of (2.2), (2.3) and the total mean curvature, in
+/// the order of the multipliers. A new constraint is a type like these, named here.
+using Constraints = std::tuple<Volume, Area, PhaseDifference, TotalMeanCurvature>;
 
 inline constexpr std::size_t num_energies = std::tuple_size_v<Energies>;
 inline constexpr int num_constraints = static_cast<int>(std::tuple_size_v<Constraints>);

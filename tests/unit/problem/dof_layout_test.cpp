@@ -27,11 +27,11 @@ TEST(DofLayout, CarriesNoPhaseFieldForOnePhase) {
   auto model = two_phase_model();
   const DofLayout two(42, model);
   EXPECT_EQ(two.block_size(), 5);
-  EXPECT_EQ(two.size(), 42 * 5 + 3);
+  EXPECT_EQ(two.size(), 42 * 5 + 4);
   model.is_two_phase = false;
   const DofLayout one(42, model);
   EXPECT_EQ(one.block_size(), 4);
-  EXPECT_EQ(one.size(), 42 * 4 + 2);
+  EXPECT_EQ(one.size(), 42 * 4 + 3);
   EXPECT_EQ(one.multiplier(2), -1);
 }
 

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <random>
 
+#include "ellipsoid_integrals.hpp"
 #include "equation_case.hpp"
 #include "vesica/problem/relaxation_problem.hpp"
 
@@ -19,7 +22,7 @@ struct EnergyCase {
   EnergyFields fields;
   EnergyRates rates;
   mesh::Positions directions;
-  Multipliers multipliers{3.0, -1.5, 0.7};
+  Multipliers multipliers{3.0, -1.5, 0.7, 0.9};
 
   [[nodiscard]] EnergyProblem problem() const { return {surface.triangulation, model, 1}; }
   [[nodiscard]] Eigen::Index num_nodes() const { return surface.positions.rows(); }
@@ -216,26 +219,10 @@ TEST(EnergyProblem, GivesTheEnergyOfASphereToFourthOrder) {
   EXPECT_GT(std::log2(errors[0] / errors[1]), 3.5);
 }
 
-/// int k_g(c) K on the ellipsoid of revolution x = a sin t, z = b cos t with c = (1 + cos t) / 2,
-/// by the midpoint rule.
-double exact_gaussian_energy(double a, double b, const model::PhasePair& k_g) {
-  constexpr int count = 20000;
-  const double pi = std::numbers::pi;
-  double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    const double t = (i + 0.5) / count * pi;
-    const double s = std::hypot(a * std::cos(t), b * std::sin(t));
-    const double curvature = b * b / std::pow(s, 4);
-    const double weight = model::interpolate(k_g, 0.5 * (1 + std::cos(t)));
-    sum += weight * curvature * a * std::sin(t) * s;
-  }
-  return sum * 2 * pi * pi / count;
-}
-
 TEST(EnergyProblem, GivesTheGaussianEnergyOfAnEllipsoidToThirdOrder) {
   model::Model model;
   model.material.gaussian_rigidity = {1.5, -0.5};
-  const double exact = exact_gaussian_energy(1, 1.6, model.material.gaussian_rigidity.at(0));
+  const double exact = test::exact_gaussian_energy(1, 1.6, model.material.gaussian_rigidity.at(0));
   std::array<double, 2> errors{};
   for (std::size_t level = 0; level < 2; ++level) {
     const auto surface = test::make_ellipsoid({1, 1, 1.6}, level == 0 ? 6 : 12);
@@ -247,6 +234,43 @@ TEST(EnergyProblem, GivesTheGaussianEnergyOfAnEllipsoidToThirdOrder) {
   EXPECT_LT(errors[1], 1e-4 * std::abs(exact));
   EXPECT_GT(errors[0], 1e-7);
   EXPECT_GT(std::log2(errors[0] / errors[1]), 3);
+}
+
+/// Elements of a C^0 surface see most of their curvature at the edges between them.
+TEST(EnergyProblem, GivesTheTotalMeanCurvatureOfAnEllipsoidToThirdOrder) {
+  model::Model model;
+  model.is_two_phase = false;
+  model.targets.of<model::TotalMeanCurvature>() = model::Schedule(-1);
+  const double exact = test::exact_mean_curvature(1, 1.6);
+  std::array<double, 2> errors{};
+  for (std::size_t level = 0; level < 2; ++level) {
+    const auto surface = test::make_ellipsoid({1, 1, 1.6}, level == 0 ? 6 : 12);
+    const EnergyProblem problem(surface.triangulation, model, 1);
+    const auto values = problem.constraints(surface.positions, {}).values;
+    errors[level] =
+        std::abs(values[model::place_of<model::Constraints, model::TotalMeanCurvature>] - exact);
+  }
+  EXPECT_LT(errors[1], 1e-4 * std::abs(exact));
+  EXPECT_GT(errors[0], 1e-7);
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 3);
+}
+
+/// The directions from which the angles are counted change the shares of two elements of an edge,
+/// not their sum.
+TEST(EnergyProblem, GivesATotalMeanCurvatureThatTurnsAndMovesWithTheSurface) {
+  std::mt19937 engine(5);
+  const auto surface = deformed_sphere(engine);
+  const auto model = two_phase_model();
+  const EnergyProblem problem(surface.triangulation, model, 1);
+  const Eigen::VectorXd c = Eigen::VectorXd::Zero(surface.positions.rows());
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const mesh::Positions moved =
+      (2 * surface.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
+  constexpr auto place = model::place_of<model::Constraints, model::TotalMeanCurvature>;
+  const double value = problem.constraints(surface.positions, c).values[place];
+  EXPECT_LT(value, -20);
+  EXPECT_NEAR(problem.constraints(moved, c).values[place], 2 * value, 1e-12 * std::abs(value));
 }
 
 }  // namespace

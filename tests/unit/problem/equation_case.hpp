@@ -45,7 +45,7 @@ inline void fill_fields(EquationCase& c, std::mt19937& engine) {
   values.positions = c.surface.positions;
   values.mean_curvature = -2 + 0.5 * linalg::random_vector(n, engine).array();
   values.order_parameter = 0.8 * linalg::random_vector(n, engine);
-  values.multipliers = {3.0, -1.5, 0.7};
+  values.multipliers = {3.0, -1.5, 0.7, 0.9};
   Fields rates;
   rates.positions = linalg::random_matrix(n, 3, engine);
   rates.mean_curvature = Eigen::VectorXd::Zero(n);
@@ -67,6 +67,7 @@ inline model::Model two_phase_model() {
   model.targets.of<model::Volume>() = model::Schedule::ramp(5, 4, 0, 1);
   model.targets.of<model::Area>() = model::Schedule(14);
   model.targets.of<model::PhaseDifference>() = model::Schedule::ramp(1, 2, 0.2, 0.8);
+  model.targets.of<model::TotalMeanCurvature>() = model::Schedule(-30);
   return model;
 }
 

@@ -270,13 +270,14 @@ INSTANTIATE_TEST_SUITE_P(Forms, RelaxationJacobian,
                                                                          : "differentiated";
                          });
 
-/// kappa = kappa_s in both phases, no line tension and k_g equal: every term with Q_h vanishes
+/// kappa = kappa_s in both phases, no line tension, k_g equal, total mean curvature free: every term with Q_h vanishes
 /// together with its derivative.
 TEST(RelaxationJacobianWithoutQh, IsExactInEveryBlock) {
   auto model = two_phase_model();
   model.material.spontaneous_curvature = {-1.7, -1.7};
   model.material.gaussian_rigidity = {0.5, 0.5};
   model.material.line_tension = 0;
+  model.targets.of<model::TotalMeanCurvature>().reset();
   auto c = make_equation_case("kappa = kappa_s", model);
   for (const auto k : indices(c, Group::curvature)) c.y[k] = -1.7;
   const auto problem = c.problem();

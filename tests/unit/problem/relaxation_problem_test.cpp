@@ -138,13 +138,14 @@ TEST(RelaxationConstraints, ChangeAtTheirRates) {
 TEST(RelaxationConstraints, EnterTheResidualWithTheirTargetsAndTheRatesOfThese) {
   auto c = make_equation_case("two phases", two_phase_model());
   const auto measured = c.problem().constraints(c.y, c.y_rate);
-  const Eigen::Vector3d rows = residual(c).tail<3>();
+  const Eigen::Vector4d rows = residual(c).tail<4>();
   // at time 0.4: volume target 5 - t, phase target 1 + (t - 0.2) / 0.6
   EXPECT_NEAR(rows[0], measured.rate[0] + 1 + 30 * (measured.value[0] - 4.6), 1e-11);
   EXPECT_NEAR(rows[1], measured.rate[1] + 30 * (measured.value[1] - 14), 1e-11);
   EXPECT_NEAR(rows[2], measured.rate[2] - 1 / 0.6 + 30 * (measured.value[2] - 4.0 / 3), 1e-11);
+  EXPECT_NEAR(rows[3], measured.rate[3] + 30 * (measured.value[3] + 30), 1e-11);
   c.settings.form = ConstraintForm::original;
-  const Eigen::Vector3d original = residual(c).tail<3>();
+  const Eigen::Vector4d original = residual(c).tail<4>();
   EXPECT_NEAR(original[0], measured.value[0] - 4.6, 1e-12);
   EXPECT_NEAR(original[2], measured.value[2] - 4.0 / 3, 1e-12);
 }

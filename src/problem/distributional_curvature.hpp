@@ -10,13 +10,14 @@
 
 namespace vesica::problem {
 
-/// Arguments of the distributional Gauss curvature of an element at a point: a weight s of the
-/// curvature and the derivatives of the position along (u, v); also the derivative of an integrand
-/// with respect to them.
+/// Arguments of a distributional curvature of an element at a point: a weight s of the curvature and
+/// the derivatives of the position along (u, v); also the derivative of an integrand with respect to
+/// them.
 template <class T>
-struct GaussianPoint {
+struct CurvaturePoint {
   T s{};
   Vec3<T> x_u, x_v, x_uu, x_uv, x_vv;
+  Vec3<double> normal{};  ///< the direction from which the angles at edges are counted
 };
 
 /// A direction in the reference triangle.
@@ -27,14 +28,23 @@ struct Direction {
 
 /// An integrand and its derivative.
 template <class T>
-struct GaussianTerm {
+struct CurvatureIntegrand {
   T value{};
-  GaussianPoint<T> gradient;
+  CurvaturePoint<T> gradient;
 };
 
-/// Computes s K times the area element, K = det b / det g the Gauss curvature inside the element.
+/// Returns the angle of the plane vector (cosine, sine), whose length may be any, as a number of
+/// type T: its derivative is (cos d sin - sin d cos) / (cos^2 + sin^2).
 template <class T>
-GaussianTerm<T> interior_curvature(const GaussianPoint<T>& in) {
+T angle_of(const T& sine, const T& cosine) {
+  const double s = value_of(sine);
+  const double c = value_of(cosine);
+  return std::atan2(s, c) + (1 / (s * s + c * c)) * (c * (sine - s) - s * (cosine - c));
+}
+
+/// Computes s K times the area element N, K = det b / det g the Gauss curvature inside the element.
+template <class T>
+CurvatureIntegrand<T> interior_gauss_curvature(const CurvaturePoint<T>& in) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
   const T area_squared = dot(n, n);
   using std::sqrt;
@@ -46,7 +56,7 @@ GaussianTerm<T> interior_curvature(const GaussianPoint<T>& in) {
   const T density = (uu * vv - uv * uv) / cubed;
   const Vec3<T> by_normal = scale * (vv * in.x_uu + uu * in.x_vv - 2.0 * (uv * in.x_uv)) -
                             (3.0 * in.s * density / area_squared) * n;
-  GaussianTerm<T> out;
+  CurvatureIntegrand<T> out;
   out.value = in.s * density;
   out.gradient.s = density;
   out.gradient.x_uu = (scale * vv) * n;
@@ -60,7 +70,7 @@ GaussianTerm<T> interior_curvature(const GaussianPoint<T>& in) {
 /// Computes s kappa_g times the line element along an edge whose parameter runs in the direction
 /// `d`, counter-clockwise: nu . (x_t x x_tt) / |x_t|^2.
 template <class T>
-GaussianTerm<T> edge_curvature(const GaussianPoint<T>& in, const Direction& d) {
+CurvatureIntegrand<T> geodesic_curvature(const CurvaturePoint<T>& in, const Direction& d) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
   const T area = norm(n);
   const Vec3<T> nu = (1.0 / area) * n;
@@ -73,7 +83,7 @@ GaussianTerm<T> edge_curvature(const GaussianPoint<T>& in, const Direction& d) {
   const Vec3<T> by_normal = (scale / area) * (r - along * nu);
   const Vec3<T> by_t = scale * cross(tt, nu) - (2.0 * scale * along * inverse) * t;
   const Vec3<T> by_tt = scale * cross(nu, t);
-  GaussianTerm<T> out;
+  CurvatureIntegrand<T> out;
   out.value = scale * along;
   out.gradient.s = along * inverse;
   out.gradient.x_u = cross(in.x_v, by_normal) + d.u * by_t;
@@ -87,26 +97,75 @@ GaussianTerm<T> edge_curvature(const GaussianPoint<T>& in, const Direction& d) {
 /// Computes -s times the inner angle at a corner, between the tangents of its two edges: `a` of the
 /// next edge and `b` back along the previous one.
 template <class T>
-GaussianTerm<T> corner_angle(const GaussianPoint<T>& in, const Direction& a, const Direction& b) {
+CurvatureIntegrand<T> corner_angle(const CurvaturePoint<T>& in, const Direction& a,
+                                   const Direction& b) {
   const Vec3<T> first = a.u * in.x_u + a.v * in.x_v;
   const Vec3<T> second = b.u * in.x_u + b.v * in.x_v;
   const Vec3<T> n = cross(first, second);
   const T sine = norm(n);
   const T cosine = dot(first, second);
   const Vec3<T> axis = (1.0 / sine) * n;
-  const T lengths_squared = dot(first, first) * dot(second, second);
   const Vec3<T> by_first = (-1.0 / dot(first, first)) * cross(axis, first);
   const Vec3<T> by_second = (1.0 / dot(second, second)) * cross(axis, second);
-  // the angle as a number of type T: its derivative is (cos d sin - sin d cos) / (a^2 b^2)
-  const double angle_value = std::atan2(value_of(sine), value_of(cosine));
-  const T angle = angle_value + (value_of(cosine) * (sine - value_of(sine)) -
-                                 value_of(sine) * (cosine - value_of(cosine))) /
-                                    value_of(lengths_squared);
-  GaussianTerm<T> out;
+  const T angle = angle_of(sine, cosine);
+  CurvatureIntegrand<T> out;
   out.value = -(in.s * angle);
   out.gradient.s = -angle;
   out.gradient.x_u = -(in.s * (a.u * by_first + b.u * by_second));
   out.gradient.x_v = -(in.s * (a.v * by_first + b.v * by_second));
+  return out;
+}
+
+/// Computes s kappa times the area element, kappa = tr(g^-1 b) = -2/R on a sphere.
+template <class T>
+CurvatureIntegrand<T> interior_mean_curvature(const CurvaturePoint<T>& in) {
+  const Vec3<T> n = cross(in.x_u, in.x_v);
+  const T inverse = 1.0 / dot(n, n);
+  const T uu = dot(n, in.x_uu);
+  const T uv = dot(n, in.x_uv);
+  const T vv = dot(n, in.x_vv);
+  const T g_uu = dot(in.x_u, in.x_u);
+  const T g_uv = dot(in.x_u, in.x_v);
+  const T g_vv = dot(in.x_v, in.x_v);
+  const T density = inverse * (g_vv * uu - 2.0 * (g_uv * uv) + g_uu * vv);
+  const T scale = in.s * inverse;
+  const Vec3<T> by_normal = scale * (g_vv * in.x_uu - 2.0 * (g_uv * in.x_uv) + g_uu * in.x_vv) -
+                            (2.0 * scale * density) * n;
+  CurvatureIntegrand<T> out;
+  out.value = in.s * density;
+  out.gradient.s = density;
+  out.gradient.x_uu = (scale * g_vv) * n;
+  out.gradient.x_uv = (-2.0 * scale * g_uv) * n;
+  out.gradient.x_vv = (scale * g_uu) * n;
+  out.gradient.x_u = cross(in.x_v, by_normal) + (2.0 * scale) * (vv * in.x_u - uv * in.x_v);
+  out.gradient.x_v = cross(by_normal, in.x_u) + (2.0 * scale) * (uu * in.x_v - uv * in.x_u);
+  return out;
+}
+
+/// Computes this element's share of the curvature that is concentrated along an edge, -s times the
+/// angle between the two faces, positive where the edge is convex, times the line element. The share
+/// is the angle from the normal of the element to the direction m that both elements have there,
+/// turned about the tangent t towards the outside of the element: atan2(m . (t x n), |t| m . n). The
+/// sum of both does not depend on m, which therefore is not differentiated.
+template <class T>
+CurvatureIntegrand<T> edge_angle(const CurvaturePoint<T>& in, const Direction& d) {
+  const Vec3<T> n = cross(in.x_u, in.x_v);
+  const Vec3<T> t = d.u * in.x_u + d.v * in.x_v;
+  const Vec3<T> m{in.normal.x, in.normal.y, in.normal.z};
+  const T length = norm(t);
+  const T along_normal = dot(m, n);
+  const T sine = dot(m, cross(t, n));
+  const T cosine = length * along_normal;
+  const T angle = angle_of(sine, cosine);
+  const T scale = -(in.s * length) / (sine * sine + cosine * cosine);
+  const T by_length = -(in.s * angle) - scale * sine * along_normal;
+  const Vec3<T> by_t = (by_length / length) * t + (scale * cosine) * cross(n, m);
+  const Vec3<T> by_normal = (scale * cosine) * cross(m, t) - (scale * sine * length) * m;
+  CurvatureIntegrand<T> out;
+  out.value = -(in.s * angle * length);
+  out.gradient.s = -(angle * length);
+  out.gradient.x_u = cross(in.x_v, by_normal) + d.u * by_t;
+  out.gradient.x_v = cross(by_normal, in.x_u) + d.v * by_t;
   return out;
 }
 
