@@ -39,6 +39,9 @@ function(vesica_compile_options target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
+  else()
+    # Packs of numbers (src/core/pack.hpp) never cross the border of a library, so how they are passed does not matter.
+    target_compile_options(${target} PRIVATE -Wno-psabi)
   endif()
 endfunction()
 

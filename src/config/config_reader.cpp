@@ -210,12 +210,9 @@ void check(const RunConfig& config) {
     }
   });
   const solve::SolverOptions& solver = config.solver;
-  if (config.adaption.enabled &&
-      (solver.method != solve::Method::ida || solver.scheme != solve::Scheme::paper)) {
+  if (config.adaption.enabled && solver.method != solve::Method::ida) {
     refuse("adaption.enabled", true,
-           fmt::format("needs solver.method = \"ida\" and solver.scheme = \"paper\", not \"{}\" "
-                       "and \"{}\"",
-                       name_of(solver.method), name_of(solver.scheme)));
+           fmt::format("needs solver.method = \"ida\", not \"{}\"", name_of(solver.method)));
   }
 }
 

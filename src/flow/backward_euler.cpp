@@ -64,6 +64,8 @@ struct Equations {
       if (self.iterations > 0 && change < negligible_change) return 0;
       if (self.iterations > patience && change > self.first_change / 2) return -1;
       self.residual = self.residual_at(self.y);
+      if (self.system.has_products())
+        self.system.linearise(self.settings, self.step.time, self.y, self.step.rates(self.y));
       view(result) = self.system.solve(self.residual);
       return 0;
     });
@@ -71,6 +73,11 @@ struct Equations {
 
   static int multiply(N_Vector x, N_Vector product, N_Vector, booleantype*, void* data) {
     return guarded(data, [&](Equations& self) {
+      if (self.system.has_products()) {
+        view(product) =
+            self.system.solve(self.system.product({1, 1 / self.step.step_size}, view(x)));
+        return 0;
+      }
       const double length = self.norm(view(x));
       const double sigma = length > 0 ? difference / length : 1;
       const auto there = self.residual_at(self.y - sigma * view(x));

@@ -19,6 +19,12 @@ Eigen::VectorXd GaugedRelaxation::initial_values(const problem::State& start) co
   return y;
 }
 
+problem::Unknowns GaugedRelaxation::unknowns(const problem::State& state) const {
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(size());
+  rates.head(inner_.size()) = inner_.unknowns(state).rates;
+  return {initial_values(state), rates};
+}
+
 problem::Fields GaugedRelaxation::values(double time, const Eigen::VectorXd& y) const {
   return inner_.values(time, without_gauge(y));
 }

@@ -11,7 +11,7 @@ namespace vesica::flow {
 /// gauge(i, k) in equation (a) of node i, and rows sum_i gauge(i, k) n_i . (x_i - X_i) = 0. They
 /// stop the spurious rigid drift of the weak form, which otherwise slides the shape through its
 /// mesh for ever, and a state at rest exists.
-class GaugedRelaxation final : public problem::FlowProblem {
+class GaugedRelaxation final : public problem::AssembledProblem {
  public:
   GaugedRelaxation(const problem::State& start, const model::Model& model, int threads);
 
@@ -22,6 +22,7 @@ class GaugedRelaxation final : public problem::FlowProblem {
     return inner_.num_multipliers() + 6;
   }
   [[nodiscard]] Eigen::VectorXd initial_values(const problem::State& start) const override;
+  [[nodiscard]] problem::Unknowns unknowns(const problem::State& state) const override;
   [[nodiscard]] problem::Fields values(double time, const Eigen::VectorXd& y) const override;
   [[nodiscard]] problem::Fields rates(const Eigen::VectorXd& y,
                                       const Eigen::VectorXd& y_rate) const override;

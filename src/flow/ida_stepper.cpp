@@ -1,14 +1,12 @@
 #include "ida_stepper.hpp"
 
-#include <sunlinsol/sunlinsol_spgmr.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "ida_linear_solvers.hpp"
+#include "problem/reduced_problem.hpp"
 #include "vesica/problem/relaxation_problem.hpp"
 #include "vesica/problem/variational_problem.hpp"
 
@@ -19,21 +17,16 @@ namespace {
 using sundials::check;
 using sundials::view;
 
-// Settings of GMRES and of the reuse of factors, measured: fewest factorisations over whole
-// relaxations.
-constexpr int krylov_dimension = 10;
-constexpr double krylov_tolerance_factor = 0.2;
-constexpr double largest_cj_change = 0.8;
-constexpr int max_newton_iterations = 6;
-constexpr double multiplier_tolerance_factor =
-    1e4;  // they are large at a start with kinks, and not error-tested
-
 constexpr double restart_step_factor = 0.3;  // of the last step, for new coordinates
 
 /// The equations of the flow on the mesh of the start.
 std::unique_ptr<problem::FlowProblem> make_problem(const solve::SolverOptions& options,
                                                    const model::Model& model,
                                                    const problem::State& start) {
+  if (options.is_preconditioned()) {
+    return std::make_unique<problem::ReducedProblem>(start.triangulation, model,
+                                                     start.values.positions, options.threads);
+  }
   if (options.scheme == solve::Scheme::variational) {
     return std::make_unique<problem::VariationalProblem>(start.triangulation, model,
                                                          start.values.positions, options.threads);
@@ -41,49 +34,15 @@ std::unique_ptr<problem::FlowProblem> make_problem(const solve::SolverOptions& o
   return std::make_unique<problem::RelaxationProblem>(start.triangulation, model, options.threads);
 }
 
+solve::NewtonSystem make_system(const solve::SolverOptions& options,
+                                const problem::FlowProblem& problem,
+                                const problem::Scales& scales) {
+  if (options.is_preconditioned())
+    return {dynamic_cast<const problem::ReducedProblem&>(problem), scales};
+  return {dynamic_cast<const problem::AssembledProblem&>(problem), options.direct_solver()};
+}
+
 }  // namespace
-
-/// Thin callbacks: they catch everything; +1 asks IDA for a smaller step, -1 ends the call.
-struct IdaStepper::Callbacks {
-  template <class Body>
-  static int guarded(void* user_data, Body&& body) {
-    auto& self = *static_cast<IdaStepper*>(user_data);
-    try {
-      body(self);
-      return 0;
-    } catch (const RecoverableError& trouble) {
-      self.last_trouble_ = trouble.what();
-      return 1;
-    } catch (...) {
-      self.fatal_ = std::current_exception();
-      return -1;
-    }
-  }
-
-  static int residual(realtype time, N_Vector y, N_Vector y_rate, N_Vector result,
-                      void* user_data) {
-    return guarded(user_data, [&](IdaStepper& self) {
-      view(result) = self.system_.residual(self.settings_, time, view(y), view(y_rate));
-    });
-  }
-
-  static int set_up_preconditioner(realtype time, N_Vector y, N_Vector y_rate, N_Vector,
-                                   realtype cj, void* user_data) {
-    return guarded(user_data, [&](IdaStepper& self) {
-      self.system_.set_up(self.settings_, {1, cj}, time, view(y), view(y_rate));
-    });
-  }
-
-  static int solve_preconditioner(realtype, N_Vector, N_Vector, N_Vector, N_Vector b, N_Vector x,
-                                  realtype, realtype, void* user_data) {
-    return guarded(user_data, [&](IdaStepper& self) { view(x) = self.system_.solve(view(b)); });
-  }
-
-  static int jacobian(realtype time, realtype cj, N_Vector y, N_Vector y_rate, N_Vector r,
-                      SUNMatrix, void* user_data, N_Vector, N_Vector, N_Vector) {
-    return set_up_preconditioner(time, y, y_rate, r, cj, user_data);
-  }
-};
 
 IdaStepper::IdaStepper(const solve::SolverOptions& options, const model::Model& model,
                        problem::State start, const std::optional<solve::Restart>& restart)
@@ -93,7 +52,7 @@ IdaStepper::IdaStepper(const solve::SolverOptions& options, const model::Model& 
       problem_(make_problem(options, model, state_)),
       settings_{scales_.damping(), options.constraint_rate / scales_.time(),
                 problem::ConstraintForm::differentiated},
-      system_(*problem_, options.linear_solver),
+      system_(make_system(options, *problem_, scales_)),
       y_(problem_->initial_values(state_)),
       y_rate_(Eigen::VectorXd::Zero(y_.size())),
       context_(sundials::make_context()) {
@@ -108,71 +67,9 @@ IdaStepper::IdaStepper(const solve::SolverOptions& options, const model::Model& 
   configure_ida();
 }
 
-void IdaStepper::configure_ida() {
-  const auto size = problem_->size();
-  ida_y_ = sundials::make_vector(size, context_);
-  ida_y_rate_ = sundials::make_vector(size, context_);
-  view(ida_y_.get()) = y_;
-  view(ida_y_rate_.get()) = y_rate_;
-  ida_ = sundials::IdaMemory(sundials::not_null(IDACreate(context_.get()), "IDACreate"));
-  void* ida = ida_.get();
-  check(IDASetErrHandlerFn(ida, sundials::silence, nullptr), "IDASetErrHandlerFn");
-  check(IDAInit(ida, Callbacks::residual, state_.time, ida_y_.get(), ida_y_rate_.get()), "IDAInit");
-  check(IDASetUserData(ida, this), "IDASetUserData");
-
-  const auto tolerances = sundials::make_vector(size, context_);
-  view(tolerances.get()) = error_tolerances();
-  check(IDASVtolerances(ida, 0.0, tolerances.get()), "IDASVtolerances");
-
-  const auto kinds = sundials::make_vector(size, context_);
-  view(kinds.get()) = problem_->differential_mask();
-  check(IDASetId(ida, kinds.get()), "IDASetId");
-  check(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
-  check(IDASetMaxOrd(ida, options_.max_order), "IDASetMaxOrd");
-  if (options_.initial_step > 0)
-    check(IDASetInitStep(ida, options_.initial_step), "IDASetInitStep");
-  if (std::isfinite(options_.max_step))
-    check(IDASetMaxStep(ida, options_.max_step), "IDASetMaxStep");
-  configure_linear_solver();
-  check(IDASetMaxNonlinIters(ida, max_newton_iterations), "IDASetMaxNonlinIters");
-}
-
-/// The error allowed in each unknown, relative to its natural unit (the diameter 2 R_c, the range
-/// of c) and not to the single value: the steps do not depend on where the origin is.
-Eigen::VectorXd IdaStepper::error_tolerances() const {
-  Eigen::VectorXd tolerances = (2 * options_.rtol + options_.atol) * problem_->units(scales_);
-  tolerances.tail(problem_->num_multipliers())
-      .setConstant(options_.rtol * multiplier_tolerance_factor * scales_.multiplier());
-  return tolerances;
-}
-
-void IdaStepper::configure_linear_solver() {
-  void* ida = ida_.get();
-  if (options_.newton == solve::NewtonMode::direct) {
-    matrix_ = make_system_matrix(context_);
-    linear_solver_ = make_system_solver(system_, context_);
-    check(IDASetLinearSolver(ida, linear_solver_.get(), matrix_.get()), "IDASetLinearSolver");
-    check(IDASetJacFn(ida, Callbacks::jacobian), "IDASetJacFn");
-    return;
-  }
-  linear_solver_ = sundials::LinearSolver(sundials::not_null(
-      SUNLinSol_SPGMR(ida_y_.get(), SUN_PREC_LEFT, krylov_dimension, context_.get()),
-      "SUNLinSol_SPGMR"));
-  check(IDASetLinearSolver(ida, linear_solver_.get(), nullptr), "IDASetLinearSolver");
-  check(
-      IDASetPreconditioner(ida, Callbacks::set_up_preconditioner, Callbacks::solve_preconditioner),
-      "IDASetPreconditioner");
-  check(IDASetEpsLin(ida, krylov_tolerance_factor), "IDASetEpsLin");
-  check(IDASetDeltaCjLSetup(ida, largest_cj_change), "IDASetDeltaCjLSetup");
-}
-
 /// Steps end where a schedule has a kink or jumps: the multipliers jump there.
 double IdaStepper::next_stop_time(double end_time) const {
   return std::min(end_time, problem_->model().next_kink(state_.time));
-}
-
-std::optional<model::EnergyParts> IdaStepper::energy() const {
-  return polished_energy_ ? polished_energy_ : problem_->energy(state_.time, y_);
 }
 
 solve::StepReport IdaStepper::step(double end_time) {
@@ -184,7 +81,6 @@ solve::StepReport IdaStepper::take_step(double end_time) {
   if (std::isfinite(stop_time)) check(IDASetStopTime(ida_.get(), stop_time), "IDASetStopTime");
   const double target = std::isfinite(stop_time) ? stop_time : state_.time + scales_.time();
   last_trouble_.clear();
-  polished_energy_.reset();
   has_stepped_ = true;
   realtype time = state_.time;
   const int code =
@@ -218,7 +114,8 @@ void IdaStepper::set_damping(double alpha) {
   if (alpha == settings_.damping) return;
   settings_.damping = alpha;
   state_.damping = alpha;
-  if (!has_stepped_) restart();
+  const bool has_damping = options_.scheme == solve::Scheme::paper;
+  if (has_damping && !has_stepped_) restart();
 }
 
 /// IDA goes on from (y, y') with order one. It forgets its counters, which are kept here.
@@ -232,7 +129,8 @@ void IdaStepper::reinitialise(double initial_step) {
 
 void IdaStepper::store(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate) {
   state_.time = time;
-  state_.values = problem_->values(time, y);
+  state_.values = system_.values(time, y);
+  energy_ = system_.energy(time, y);
   state_.rates = problem_->rates(y, y_rate);
   state_.damping = settings_.damping;
 }

@@ -17,16 +17,17 @@ namespace vesica::flow {
 
 /// Integrates the relaxation flow with SUNDIALS IDA in one-step mode: variable step, BDF of
 /// variable order, error control on x and c. Newton systems: GMRES with the factors of an older
-/// Jacobian as preconditioner, or those factors directly.
+/// Jacobian as preconditioner, or those factors directly; for ReducedProblem GMRES with exact
+/// products and the preconditioner from factors of second-order operators.
 class IdaStepper final : public solve::Stepper {
  public:
   /// Without `restart` consistent initial values are found here; throws SolverError when there are
-  /// none. With it (scheme paper) the values and rates of `start` are taken as they are.
+  /// none. With it the values and rates of `start` are taken as they are.
   IdaStepper(const solve::SolverOptions& options, const model::Model& model, problem::State start,
              const std::optional<solve::Restart>& restart = {});
 
   [[nodiscard]] const problem::State& state() const override { return state_; }
-  [[nodiscard]] std::optional<model::EnergyParts> energy() const override;
+  [[nodiscard]] std::optional<model::EnergyParts> energy() const override { return energy_; }
   solve::StepReport step(double end_time) override;
   solve::StepReport finish() override;
   void set_damping(double alpha) override;
@@ -83,10 +84,10 @@ class IdaStepper final : public solve::Stepper {
   bool has_stepped_ = false;
   solve::SolverCounts earlier_counts_;  // of IDA before its last initialisation
   double total_seconds_ = 0;
-  std::optional<model::EnergyParts> polished_energy_;
-  std::exception_ptr fatal_;   // thrown in a callback, rethrown after the C call
-  std::string last_trouble_;   // text of the last RecoverableError
-  sundials::Context context_;  // SUNDIALS objects in the order of dependence
+  std::optional<model::EnergyParts> energy_;  // of a discretisation that has one
+  std::exception_ptr fatal_;                  // thrown in a callback, rethrown after the C call
+  std::string last_trouble_;                  // text of the last RecoverableError
+  sundials::Context context_;                 // SUNDIALS objects in the order of dependence
   sundials::Vector ida_y_;
   sundials::Vector ida_y_rate_;
   sundials::Matrix matrix_;

@@ -100,7 +100,7 @@ double IdaStepper::relative_force(const measure::Diagnostics& measured) const {
 solve::StepReport IdaStepper::polish_weak_form() {
   const auto& model = problem_->model();
   GaugedRelaxation gauged(state_, model, options_.threads);
-  solve::NewtonSystem system(gauged, options_.linear_solver);
+  solve::NewtonSystem system(gauged, options_.direct_solver());
   const Eigen::VectorXd weights = (2 * options_.rtol * gauged.units(scales_)).cwiseInverse();
   problem::State polished = state_;
   Eigen::VectorXd y = gauged.initial_values(state_);
@@ -134,7 +134,7 @@ solve::StepReport IdaStepper::polish_energy() {
       solve::find_equilibrium(options_, problem_->model(), state_, state_.values.positions);
   if (equilibrium.report.is_converged) {
     state_ = equilibrium.state;
-    polished_energy_ = equilibrium.energy;
+    energy_ = equilibrium.energy;
   }
   return polish_report(equilibrium.report, equilibrium.counts, equilibrium.seconds);
 }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ida_stepper.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/problem/dof_layout.hpp"
 
 namespace vesica::flow {
 
@@ -18,9 +18,9 @@ constexpr double slow_convergence = 0.2;
 }  // namespace
 
 void IdaStepper::go_on_from_start(const solve::Restart& restart) {
-  const problem::DofLayout layout(state_.triangulation->num_nodes(), problem_->model());
-  y_ = layout.pack(state_.values);
-  y_rate_ = layout.pack(state_.rates);
+  auto [y, y_rate] = problem_->unknowns(state_);
+  y_ = std::move(y);
+  y_rate_ = std::move(y_rate);
   options_.initial_step = restart.initial_step;
   has_stepped_ = true;
 }

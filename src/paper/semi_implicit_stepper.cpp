@@ -100,11 +100,11 @@ SemiImplicitStepper::SemiImplicitStepper(const solve::SolverOptions& options,
                options.threads),
       time_step_(resolved_time_step(options, model)),
       system_(problem_.make_system()),
-      geometry_solver_(linalg::make_direct_solver(options.linear_solver, system_.geometry,
+      geometry_solver_(linalg::make_direct_solver(options.direct_solver(), system_.geometry,
                                                   problem_.block_size())) {
   state_ = prepared(std::move(start), problem_);
   if (model.is_two_phase)
-    phase_solver_ = linalg::make_direct_solver(options.linear_solver, system_.phase, 1);
+    phase_solver_ = linalg::make_direct_solver(options.direct_solver(), system_.phase, 1);
 }
 
 solve::StepReport SemiImplicitStepper::step(double end_time) {

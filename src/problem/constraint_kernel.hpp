@@ -11,9 +11,11 @@
 
 namespace vesica::problem {
 
-/// Exact gradients of the constrained functionals with respect to the nodal values of an element.
+/// Values of the constrained functionals over an element, and their exact gradients with respect to
+/// its nodal values.
 template <class T>
 struct ConstraintGradients {
+  std::array<T, model::num_constraints> values{};
   std::array<std::array<Vec3<T>, 6>, model::num_constraints> dx{};
   std::array<std::array<T, 6>, model::num_constraints> dc{};
 };
@@ -86,7 +88,9 @@ ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes
     const auto in = point_fields(nodes, shape, physics.is_two_phase);
     const auto frame = fem::tangent_frame(in.x_u, in.x_v);
     const auto at = local_point(in, frame);
+    const T area = point.weight * frame.area_element;
     for_each_local_constraint(physics, at, [&](std::size_t place, const model::LocalDensity<T>& f) {
+      sum.values[place] += area * f.value;
       const auto d = derivative_of(f, at, in, frame, physics.is_two_phase);
       for (std::size_t i = 0; i < 6; ++i) {
         const double value = point.weight * shape.value[i];
@@ -99,6 +103,7 @@ ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes
     });
   }
   for_each_curved_constraint(physics, [&]<class Constraint>(std::size_t place) {
+    sum.values[place] = curvature_integral<Constraint>(physics.material, nodes);
     add_curvature_gradient<Constraint>(physics.material, 1.0, nodes, sum.dx[place], sum.dc[place]);
   });
   return sum;

@@ -17,7 +17,7 @@ template <class T>
 struct CurvaturePoint {
   T s{};
   Vec3<T> x_u, x_v, x_uu, x_uv, x_vv;
-  Vec3<double> normal{};  ///< the direction from which the angles at edges are counted
+  Vec3<ValueOf<T>> normal{};  ///< the direction from which the angles at edges are counted
 };
 
 /// A direction in the reference triangle.
@@ -37,9 +37,11 @@ struct CurvatureIntegrand {
 /// type T: its derivative is (cos d sin - sin d cos) / (cos^2 + sin^2).
 template <class T>
 T angle_of(const T& sine, const T& cosine) {
-  const double s = value_of(sine);
-  const double c = value_of(cosine);
-  return std::atan2(s, c) + (1 / (s * s + c * c)) * (c * (sine - s) - s * (cosine - c));
+  using std::atan2;
+  const auto s = value_of(sine);
+  const auto c = value_of(cosine);
+  return T(atan2(s, c)) +
+         T(1.0 / (s * s + c * c)) * (T(c) * (sine - T(s)) - T(s) * (cosine - T(c)));
 }
 
 /// Computes s K times the area element N, K = det b / det g the Gauss curvature inside the element.

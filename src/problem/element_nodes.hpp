@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "vesica/core/dual.hpp"
 #include "vesica/core/small_tensor.hpp"
 #include "vesica/mesh/triangulation.hpp"
 
@@ -13,8 +14,8 @@ template <class T>
 struct ElementNodes {
   std::array<Vec3<T>, 6> x;
   std::array<T, 6> c{};
-  std::array<double, 6> vertex_angle{};  ///< 2 pi over the number of elements at the vertex
-  std::array<Vec3<double>, 6> normal{};  ///< directions that all elements at a node share
+  std::array<ValueOf<T>, 6> vertex_angle{};  ///< 2 pi over the number of elements at the vertex
+  std::array<Vec3<ValueOf<T>>, 6> normal{};  ///< directions that all elements at a node share
 };
 
 inline Vec3<double> row_of(const mesh::Positions& field, mesh::NodeIndex node) {

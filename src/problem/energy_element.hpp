@@ -9,11 +9,13 @@
 
 namespace vesica::problem {
 
-/// Nodal values of one element.
-struct EnergyElement : ElementNodes<double> {
-  std::array<Vec3<double>, 6> p, velocity;
-  std::array<double, 6> c_rate{};
+/// Nodal values of one element, or of as many as a number of type T stands for.
+template <class T>
+struct ElementFields : ElementNodes<T> {
+  std::array<Vec3<T>, 6> p, velocity;
+  std::array<T, 6> c_rate{};
 };
+using EnergyElement = ElementFields<double>;
 
 /// What the distributional curvatures need from the mesh around an element.
 struct Surroundings {
@@ -23,14 +25,11 @@ struct Surroundings {
 
 /// Takes the values of an element out of the fields; arrays without rows give zeros.
 inline EnergyElement energy_element(const EnergyFields& fields, const EnergyRates& rates,
-                                    const mesh::QuadraticTriangle& triangle,
-                                    const Surroundings& around) {
+                                    const mesh::QuadraticTriangle& triangle) {
   EnergyElement element;
-  put_directions(around.directions, triangle, element);
   for (std::size_t i = 0; i < 6; ++i) {
     const auto node = triangle[i];
     element.x[i] = row_of(fields.positions, node);
-    element.vertex_angle[i] = around.vertex_angles[node];
     if (fields.moment.rows() > 0) element.p[i] = row_of(fields.moment, node);
     if (rates.velocity.rows() > 0) element.velocity[i] = row_of(rates.velocity, node);
     element.c[i] = fields.order_parameter.size() > 0 ? fields.order_parameter[node] : 1.0;
@@ -39,9 +38,19 @@ inline EnergyElement energy_element(const EnergyFields& fields, const EnergyRate
   return element;
 }
 
-inline EnergyPoint<double> energy_point(const EnergyElement& element,
-                                        const fem::ShapeValues& shape) {
-  EnergyPoint<double> in;
+/// The same with what is around the element.
+inline EnergyElement energy_element(const EnergyFields& fields, const EnergyRates& rates,
+                                    const mesh::QuadraticTriangle& triangle,
+                                    const Surroundings& around) {
+  auto element = energy_element(fields, rates, triangle);
+  put_directions(around.directions, triangle, element);
+  for (std::size_t i = 0; i < 6; ++i) element.vertex_angle[i] = around.vertex_angles[triangle[i]];
+  return element;
+}
+
+template <class T>
+EnergyPoint<T> energy_point(const ElementFields<T>& element, const fem::ShapeValues& shape) {
+  EnergyPoint<T> in;
   in.x = interpolate_nodes(element.x, shape.value);
   in.x_u = interpolate_nodes(element.x, shape.du);
   in.x_v = interpolate_nodes(element.x, shape.dv);

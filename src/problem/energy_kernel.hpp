@@ -108,8 +108,8 @@ EnergyPoint<T> energy_point_gradient(const model::Physics& physics, const Multip
 }
 
 /// Adds the terms of the gradient flow, int (x' . nu) nu . xi and eps omega int c' phi.
-template <class T>
-void add_flow_terms(const model::Physics& physics, const Vec3<T>& velocity, double c_rate,
+template <class T, class Rate>
+void add_flow_terms(const model::Physics& physics, const Vec3<T>& velocity, const Rate& c_rate,
                     const EnergyPoint<T>& in, EnergyPoint<T>& out) {
   const Vec3<T> n = cross(in.x_u, in.x_v);
   const T area = norm(n);

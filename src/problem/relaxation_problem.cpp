@@ -95,6 +95,10 @@ Eigen::VectorXd RelaxationProblem::initial_values(const State& start) const {
   return layout_.pack(values);
 }
 
+Unknowns RelaxationProblem::unknowns(const State& state) const {
+  return {layout_.pack(state.values), layout_.pack(state.rates)};
+}
+
 /// Diameter 2 R_c and range 2 of c, and as much in units of curvature.
 Eigen::VectorXd RelaxationProblem::units(const Scales& scales) const {
   Eigen::VectorXd units(layout_.size());

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "graph_equations.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/mesh/quality.hpp"
-#include "vesica/mesh/redistribute.hpp"
 
 namespace vesica::problem {
 
@@ -13,14 +13,6 @@ namespace {
 constexpr std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 constexpr Eigen::Index displacement = 3;
 constexpr Eigen::Index phase = 4;
-constexpr Eigen::Index num_rigid = 6;
-constexpr double smallest_allowed_cosine = 0.85;
-
-// A mesh is worn below this quality (3.5), when it has also lost this much since its last
-// reference.
-constexpr double worn_quality = 0.3;
-constexpr double worn_fraction = 0.75;
-constexpr int redistribution_sweeps = 10;
 
 }  // namespace
 
@@ -93,6 +85,17 @@ Eigen::VectorXd VariationalProblem::initial_values(const State& start) const {
   return y;
 }
 
+Unknowns VariationalProblem::unknowns(const State& state) const {
+  const auto block = block_size();
+  const Eigen::VectorXd speeds = along(state.rates.positions, graph_.directions);
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(size());
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) {
+    rates[i * block + displacement] = speeds[i];
+    if (block == 5) rates[i * block + phase] = state.rates.order_parameter[i];
+  }
+  return {initial_values(state), rates};
+}
+
 /// kappa = kappa_s - p . nu / k_kappa.
 Fields VariationalProblem::values(double time, const Eigen::VectorXd& y) const {
   const auto now = fields(time, y);
@@ -148,34 +151,17 @@ Eigen::VectorXd VariationalProblem::residual(const EquationSettings& settings, d
   const auto rates = energy_rates(y_rate);
   const auto gradient = energy_.gradient(now, multipliers(y), rates);
   const auto constraints = energy_.constraints(now.positions, now.order_parameter);
-  const Eigen::VectorXd d = displacements(y);
-  const Eigen::VectorXd d_rate = displacements(y_rate);
   const Eigen::VectorXd mu = y.tail<num_rigid>();
-  const Eigen::VectorXd force =
-      gradient.positions.cwiseProduct(graph_.directions).rowwise().sum() + graph_.gauge * mu;
+  const Eigen::VectorXd force = along(gradient.positions, graph_.directions) + graph_.gauge * mu;
   Eigen::VectorXd result(size());
   for (Eigen::Index i = 0; i < force.size(); ++i) {
     result.segment<3>(i * block) = gradient.moment.row(i).transpose();
     result[i * block + displacement] = force[i];
     if (block == 5) result[i * block + phase] = gradient.order_parameter[i];
   }
-  const bool is_original = settings.form == ConstraintForm::original;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    const int which = active_[k];
-    const auto& target = *model().targets[at(which)];
-    const double error = constraints.values[at(which)] - target.value(time);
-    double rate = constraints.positions[at(which)].cwiseProduct(rates.velocity).sum();
-    if (block == 5) rate += constraints.order_parameter[at(which)].dot(rates.order_parameter);
-    result[num_nodal() + static_cast<Eigen::Index>(k)] =
-        is_original ? error : rate - target.rate(time) + settings.constraint_rate * error;
-  }
-  for (Eigen::Index k = 0; k < num_rigid; ++k) {
-    const auto column = graph_.gauge.col(k);
-    const double error = column.dot(d);
-    const double gauge =
-        is_original ? error : column.dot(d_rate) + settings.constraint_rate * error;
-    result[size() - num_rigid + k] = column.isZero(0) ? mu[k] : gauge;
-  }
+  result.tail(num_multipliers()) =
+      border_residual(model(), graph_, settings,
+                      {time, constraints, rates, displacements(y), displacements(y_rate), mu});
   if (!result.allFinite()) throw RecoverableError("the residual of the flow is not finite");
   return result;
 }
@@ -214,8 +200,7 @@ void VariationalProblem::jacobian(const EquationSettings& settings, const Jacobi
   const auto rates = energy_rates(y_rate);
   energy_.hessian(now, multipliers(y), rates, graph_.directions, weights, matrix.block);
   const bool is_original = settings.form == ConstraintForm::original;
-  const double first =
-      is_original ? weights.value : weights.value * settings.constraint_rate + weights.rate;
+  const double first = border_row_factor(settings, weights);
   const auto num_active = static_cast<Eigen::Index>(active_.size());
   const auto gradients =
       constraint_columns(energy_.constraints(now.positions, now.order_parameter));
@@ -244,29 +229,20 @@ void VariationalProblem::jacobian(const EquationSettings& settings, const Jacobi
 }
 
 bool VariationalProblem::renew_coordinates(Eigen::VectorXd& y, Eigen::VectorXd& y_rate) {
-  const auto& triangulation = energy_.triangulation();
   const Eigen::VectorXd d = displacements(y);
-  mesh::Positions positions = graph_.positions(d);
-  const double quality = mesh::quality(triangulation, positions);
-  const bool is_worn = quality < worn_quality && quality < worn_fraction * quality_of_reference_;
-  if (!is_worn && graph_.smallest_cosine(triangulation, d) >= smallest_allowed_cosine) return false;
-  const mesh::Positions velocity = energy_rates(y_rate).velocity;
   Eigen::MatrixXd nodal(d.size(), 2 * block_size() + 3);
-  nodal << as_rows(y), as_rows(y_rate), velocity;
-  if (is_worn) {
-    const auto moved =
-        mesh::redistribute({shared_triangulation_, positions}, redistribution_sweeps);
-    nodal = mesh::interpolate(triangulation, moved.origins, nodal).eval();
-    positions = moved.positions;
-  }
-  graph_ = make_normal_graph(triangulation, positions);
-  quality_of_reference_ = mesh::quality(triangulation, positions);
+  nodal << as_rows(y), as_rows(y_rate), energy_rates(y_rate).velocity;
+  auto renewal = renewed(shared_triangulation_, graph_, d, quality_of_reference_, nodal);
+  if (!renewal) return false;
+  graph_ = std::move(renewal->graph);
+  quality_of_reference_ = renewal->quality;
   const auto block = block_size();
   for (Eigen::Index i = 0; i < d.size(); ++i) {
-    y.segment(i * block, block) = nodal.row(i).head(block).transpose();
-    y_rate.segment(i * block, block) = nodal.row(i).segment(block, block).transpose();
+    const auto row = renewal->nodal.row(i);
+    y.segment(i * block, block) = row.head(block).transpose();
+    y_rate.segment(i * block, block) = row.segment(block, block).transpose();
     y[i * block + displacement] = 0;
-    y_rate[i * block + displacement] = nodal.row(i).tail<3>().dot(graph_.directions.row(i));
+    y_rate[i * block + displacement] = row.tail<3>().dot(graph_.directions.row(i));
   }
   y.tail<num_rigid>().setZero();
   return true;

@@ -30,11 +30,10 @@ std::unique_ptr<solve::Stepper> restart_stepper(const solve::SolverOptions& opti
                                                 const model::Model& model, problem::State start,
                                                 const solve::Restart& restart) {
   check("solver", options);
-  if (options.method != solve::Method::ida || options.scheme != solve::Scheme::paper) {
-    throw ConfigError(fmt::format(
-        "solver.method = {}, solver.scheme = {}: a run goes on from a given state only with ida "
-        "and paper",
-        name_of(options.method), name_of(options.scheme)));
+  if (options.method != solve::Method::ida) {
+    throw ConfigError(
+        fmt::format("solver.method = {}: a run goes on from a given state only with ida",
+                    name_of(options.method)));
   }
   return std::make_unique<flow::IdaStepper>(options, model, std::move(start), restart);
 }

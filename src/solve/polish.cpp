@@ -43,7 +43,7 @@ class Optimality {
       : scales_(problem::scales_of(model, state)),
         time_(state.time),
         problem_(state.triangulation, model, reference, options.threads),
-        system_(problem_, options.linear_solver),
+        system_(problem_, options.direct_solver()),
         y_(problem_.initial_values(state)),
         rest_(Eigen::VectorXd::Zero(y_.size())) {}
 

@@ -57,6 +57,11 @@ TEST(SlowAdaption, ReachesTable1) {
                    {test::table_1_energy, test::table_1_volume_multiplier, 8e-4, 2e-3});
 }
 
+TEST(SlowAdaption, ReachesTable1WithTheVariationalFlow) {
+  expect_reference(run_adaptively("cigar_dumbbell", {"solver.scheme=variational"}),
+                   {test::table_1_energy, test::table_1_volume_multiplier, 8e-4, 2e-3});
+}
+
 TEST(SlowAdaption, ReachesTable1WithThePapersMethods) {
   // The image of a sphere mesh replaces even the good mesh of the start.
   for (const auto& overrides : std::vector<std::vector<std::string>>{

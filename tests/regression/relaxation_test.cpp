@@ -49,7 +49,7 @@ TEST(Table1Regression, RelaxesWith1154NodesAndDirectNewtonSystems) {
 
 TEST(Table1Regression, RelaxesWith1154NodesAndKlu) {
   solve::SolverOptions options;
-  options.linear_solver = linalg::DirectSolverKind::klu;
+  options.linear_solver = solve::LinearSolver::klu;
   expect_table_1({4, 58.84990, 27.1901, 0.45}, options, 12);
 }
 

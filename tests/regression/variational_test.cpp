@@ -63,6 +63,31 @@ TEST(VariationalFlow, LowersTheEnergyInEveryStepAndFindsTable1) {
   EXPECT_NEAR(result.volume_multiplier(), test::table_1_volume_multiplier, 2.5e-2);
 }
 
+TEST(VariationalFlow, EndsInTheSameEquilibriumWithFactorsAndWithThePreconditioner) {
+  const auto c = test::table_1_case(4);
+  auto options = variational();
+  const auto preconditioned = test::run_case(c, options);
+  options.linear_solver = solve::LinearSolver::klu;
+  const auto factorised = test::run_case(c, options);
+  ASSERT_EQ(preconditioned.outcome.status, relax::RunStatus::converged)
+      << preconditioned.outcome.reason;
+  ASSERT_EQ(factorised.outcome.status, relax::RunStatus::converged) << factorised.outcome.reason;
+  EXPECT_NEAR(preconditioned.energy(), factorised.energy(), 1e-9 * factorised.energy());
+  EXPECT_NEAR(preconditioned.volume_multiplier(), factorised.volume_multiplier(),
+              1e-5 * factorised.volume_multiplier());
+}
+
+TEST(VariationalFlow, NeedsNoMoreKrylovIterationsOnAFinerMesh) {
+  const auto iterations = [](int resolution) {
+    const auto counts = test::run_case(test::table_1_case(resolution), variational()).counts();
+    return static_cast<double>(counts.krylov) / static_cast<double>(counts.newton);
+  };
+  const double coarse = iterations(3);
+  const double fine = iterations(8);
+  EXPECT_GT(coarse, 0.5);
+  EXPECT_LE(fine, 1.3 * coarse);
+}
+
 TEST(VariationalFlow, IsWithinAThousandthOfTable1WithFourThousandNodes) {
   const auto result = test::run_case(test::table_1_case(8), variational(true));
   ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;

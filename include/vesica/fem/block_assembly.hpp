@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "vesica/core/parallel.hpp"
@@ -27,19 +29,21 @@ void store_blocks(const ElementMatrix<Block>& local, double* out) {
 }
 
 /// Sums entries of shape (T, 6, columns), one group for each node of each triangle, over the
-/// triangles around a node, always in the same order: shape (N, columns), the shape of `result`.
+/// triangles around a node, always in the same order: shape (N, columns), the shape of `result`, at
+/// most 64 columns.
 template <class Matrix>
-void gather_nodal(const NodeGraph& graph, const std::vector<double>& local, int threads,
+void gather_nodal(const NodeGraph& graph, std::span<const double> local, int threads,
                   Matrix&& result) {
   const auto columns = static_cast<std::size_t>(result.cols());
   parallel_for(graph.num_nodes(), threads, [&](int begin, int end) {
+    std::array<double, 64> sum;
     for (int node = begin; node < end; ++node) {
-      for (std::size_t k = 0; k < columns; ++k) {
-        double sum = 0;
-        for (const auto code : graph.incidences(node))
-          sum += local[static_cast<std::size_t>(code) * columns + k];
-        result(node, static_cast<Eigen::Index>(k)) = sum;
+      std::fill_n(sum.begin(), columns, 0.0);
+      for (const auto code : graph.incidences(node)) {
+        const auto group = local.subspan(static_cast<std::size_t>(code) * columns, columns);
+        for (std::size_t k = 0; k < columns; ++k) sum[k] += group[k];
       }
+      for (std::size_t k = 0; k < columns; ++k) result(node, static_cast<Eigen::Index>(k)) = sum[k];
     }
   });
 }

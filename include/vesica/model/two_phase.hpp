@@ -8,16 +8,15 @@ namespace vesica::model {
 /// Returns h(c) = c (3 - c^2) / 2 between -1 and 1, and -1 or 1 outside (Section 2.1).
 template <class T>
 T phase_indicator(const T& c) {
-  if (value_of(c) >= 1) return T(1.0);
-  if (value_of(c) <= -1) return T(-1.0);
-  return 0.5 * c * (3.0 - c * c);
+  const T x = clamped(c);
+  return 0.5 * x * (3.0 - x * x);
 }
 
 /// Returns h'(c) = 3/2 (1 - c^2) between -1 and 1, 0 outside.
 template <class T>
 T phase_indicator_derivative(const T& c) {
-  if (value_of(c) >= 1 || value_of(c) <= -1) return T(0.0);
-  return 1.5 * (1.0 - c * c);
+  const T x = clamped(c);
+  return 1.5 * (1.0 - x * x);
 }
 
 /// Returns the double well psi(c) = (1 - c^2)^2 / 2 of (1.3).

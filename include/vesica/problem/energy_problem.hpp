@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "vesica/fem/mass_matrix.hpp"
 #include "vesica/fem/node_graph.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/model/per_term.hpp"
@@ -40,6 +41,12 @@ struct ConstraintEvaluation {
   std::array<Eigen::VectorXd, model::num_constraints> order_parameter;
 };
 
+/// The linear equations M_k p = b of the maximiser p.
+struct MomentEquations {
+  fem::MassMatrix mass;  ///< int phi_i phi_j / k_kappa, shape (N, N)
+  mesh::Positions rhs;   ///< dE_h/dp at p = 0, shape (N, 3)
+};
+
 /// One discrete energy of the membrane, the dual mixed form with the bending moment p as third
 /// field:
 ///
@@ -61,6 +68,8 @@ class EnergyProblem {
   [[nodiscard]] const mesh::Triangulation& triangulation() const { return *triangulation_; }
   [[nodiscard]] const fem::NodeGraph& graph() const { return graph_; }
 
+  /// Computes the equations of the maximiser p; the moment of `fields` has no effect.
+  [[nodiscard]] MomentEquations moment_equations(const EnergyFields& fields) const;
   /// Computes the maximiser p, shape (N, 3), with one solve with the mass matrix weighted by
   /// 1/k_kappa.
   [[nodiscard]] mesh::Positions moment(const mesh::Positions& positions,
@@ -78,6 +87,17 @@ class EnergyProblem {
   /// c' phi.
   [[nodiscard]] EnergyFields gradient(const EnergyFields& fields, const Multipliers& multipliers,
                                       const EnergyRates& rates = {}) const;
+  /// Computes the derivative of dE_h/dp, shape (N, 3), along a change of positions and c at fixed p;
+  /// empty fields do not change.
+  [[nodiscard]] mesh::Positions moment_change(const EnergyFields& fields,
+                                              const EnergyFields& change) const;
+  /// Computes the derivative of `gradient` with respect to positions and c along a change of all
+  /// fields and rates: the product of the second derivative with it, without a matrix. The moment of
+  /// the result is empty.
+  [[nodiscard]] EnergyFields gradient_change(const EnergyFields& fields,
+                                             const Multipliers& multipliers,
+                                             const EnergyRates& rates, const EnergyFields& change,
+                                             const EnergyRates& rate_change) const;
   /// Computes the derivative of `gradient` for moves of the nodes along `directions`, shape (N, 3):
   /// block (node, node) of a matrix from `graph().block_pattern(4 or 5)`, unknowns of a node in the
   /// order p, displacement, c. Symmetric for weights {1, 0}. Unknowns p always count with weight 1.
@@ -93,10 +113,9 @@ class EnergyProblem {
                                                       const EnergyRates& rates) const;
 
  private:
-  template <class T, class Take>
+  template <class T>
   [[nodiscard]] ConstraintEvaluation assemble_constraints(const EnergyFields& fields,
-                                                          const EnergyRates& rates,
-                                                          const Take& take) const;
+                                                          const EnergyRates& rates) const;
   template <int Block>
   void assemble_hessian(const EnergyFields& fields, const Multipliers& multipliers,
                         const EnergyRates& rates, const mesh::Positions& directions,

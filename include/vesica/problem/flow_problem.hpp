@@ -30,9 +30,14 @@ struct JacobianWeights {
   double rate = 0;
 };
 
+/// Unknowns of a FlowProblem and their time derivatives, both of shape (size()).
+struct Unknowns {
+  Eigen::VectorXd values;
+  Eigen::VectorXd rates;
+};
+
 /// Semi-discrete equations F(t, y, y') = 0 of a relaxation flow on one mesh, as IDA integrates
-/// them. y holds the unknowns of the nodes, node by node in blocks of equal size, then the
-/// multipliers. Methods that evaluate throw RecoverableError when an element is degenerate or a
+/// them. y holds the unknowns of the nodes, block_size() a node, then the multipliers. Methods that evaluate throw RecoverableError when an element is degenerate or a
 /// value is not finite.
 class FlowProblem {
  public:
@@ -50,6 +55,8 @@ class FlowProblem {
   /// Returns y with the positions and the order parameter of a start and first guesses of the
   /// algebraic unknowns.
   [[nodiscard]] virtual Eigen::VectorXd initial_values(const State& start) const = 0;
+  /// Returns y and y' of a state as it is, where a run goes on from it.
+  [[nodiscard]] virtual Unknowns unknowns(const State& state) const = 0;
   /// Returns the nodal fields and multipliers of y.
   [[nodiscard]] virtual Fields values(double time, const Eigen::VectorXd& y) const = 0;
   /// Returns the time derivatives of the nodal fields and multipliers from y and y'.
@@ -71,13 +78,6 @@ class FlowProblem {
   [[nodiscard]] virtual Eigen::VectorXd residual(const EquationSettings& settings, double time,
                                                  const Eigen::VectorXd& y,
                                                  const Eigen::VectorXd& y_rate) const = 0;
-  /// Makes a bordered matrix with the pattern that `jacobian` fills.
-  [[nodiscard]] virtual linalg::BorderedMatrix make_matrix() const = 0;
-  /// Computes the Jacobian of `residual` at the same arguments, with these weights, into `matrix`,
-  /// which make_matrix() made.
-  virtual void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
-                        double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
-                        linalg::BorderedMatrix& matrix) const = 0;
 
   /// Renews coordinates that follow the surface: when it has moved far, the present surface becomes
   /// the new reference, (y, y') are rewritten and true is returned.
@@ -86,6 +86,19 @@ class FlowProblem {
     (void)y_rate;
     return false;
   }
+};
+
+/// A FlowProblem whose Jacobian is a sparse matrix with a border; the unknowns of the nodes stand
+/// node by node.
+class AssembledProblem : public FlowProblem {
+ public:
+  /// Makes a bordered matrix with the pattern that `jacobian` fills.
+  [[nodiscard]] virtual linalg::BorderedMatrix make_matrix() const = 0;
+  /// Computes the Jacobian of `residual` at the same arguments, with these weights, into `matrix`,
+  /// which make_matrix() made.
+  virtual void jacobian(const EquationSettings& settings, const JacobianWeights& weights,
+                        double time, const Eigen::VectorXd& y, const Eigen::VectorXd& y_rate,
+                        linalg::BorderedMatrix& matrix) const = 0;
 };
 
 }  // namespace vesica::problem

@@ -34,7 +34,7 @@ struct EquationContext;
 /// Unknowns and equations of a node stand together (DofLayout); equation order in a node: (b) x, y,
 /// z, (a), (d). Every method throws RecoverableError when an element is degenerate or a value is
 /// not finite.
-class RelaxationProblem final : public FlowProblem {
+class RelaxationProblem final : public AssembledProblem {
  public:
   /// Makes the equations on a mesh. `threads` is the number of threads of parallel_for; 0 takes all
   /// cores.
@@ -47,6 +47,7 @@ class RelaxationProblem final : public FlowProblem {
   [[nodiscard]] Eigen::Index num_nodal() const override { return layout_.num_nodal(); }
   [[nodiscard]] Eigen::Index num_multipliers() const override { return layout_.num_multipliers(); }
   [[nodiscard]] Eigen::VectorXd initial_values(const State& start) const override;
+  [[nodiscard]] Unknowns unknowns(const State& state) const override;
   [[nodiscard]] Fields values(double, const Eigen::VectorXd& y) const override {
     return layout_.unpack(y);
   }

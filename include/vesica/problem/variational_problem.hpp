@@ -21,7 +21,7 @@ namespace vesica::problem {
 /// Unknowns of a node in the order p, d, c; then lambda of the active constraints, then mu. Along
 /// solutions d/dt E_h = -||x'.nu||^2 - eps omega ||c'||^2 - sum lambda_i C_i'. The Jacobian is
 /// exact and its part for y symmetric. `EquationSettings::damping` has no meaning here.
-class VariationalProblem final : public FlowProblem {
+class VariationalProblem final : public AssembledProblem {
  public:
   /// Makes the equations on a mesh, with `positions`, shape (N, 3), as the reference of the graph.
   /// `threads` is the number of threads of parallel_for; 0 takes all cores.
@@ -38,6 +38,7 @@ class VariationalProblem final : public FlowProblem {
   [[nodiscard]] Eigen::Index num_multipliers() const override;
 
   [[nodiscard]] Eigen::VectorXd initial_values(const State& start) const override;
+  [[nodiscard]] Unknowns unknowns(const State& state) const override;
   [[nodiscard]] Fields values(double time, const Eigen::VectorXd& y) const override;
   [[nodiscard]] Fields rates(const Eigen::VectorXd& y,
                              const Eigen::VectorXd& y_rate) const override;

@@ -52,8 +52,7 @@ struct AdaptionOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     using enum MeshMethod;
-    visit(Field{"enabled", "-",
-                "new meshes where the surface needs them; method ida with scheme paper only"},
+    visit(Field{"enabled", "-", "new meshes where the surface needs them; method ida only"},
           self.enabled);
     visit(Field{"method", "-",
                 "local (towards a size field), bisection (3.5) or conformal (bisection, and the "

@@ -19,6 +19,10 @@ enum class Scheme { paper, variational };
 /// How Newton's linear systems are solved: by GMRES with the factors as preconditioner, or
 /// directly.
 enum class NewtonMode { krylov, direct };
+/// What stands for the inverse of the Jacobian: sparse LU factors, or, for the flow of
+/// Scheme::variational, the preconditioner from Cholesky factors of second-order operators. The
+/// automatic choice is the preconditioner where it can be had.
+enum class LinearSolver { automatic, preconditioned, umfpack, klu };
 
 }  // namespace vesica::solve
 
@@ -41,6 +45,15 @@ struct EnumNames<solve::NewtonMode> {
   static constexpr std::array<std::pair<solve::NewtonMode, std::string_view>, 2> names{
       {{krylov, "krylov"}, {direct, "direct"}}};
 };
+template <>
+struct EnumNames<solve::LinearSolver> {
+  using enum solve::LinearSolver;
+  static constexpr std::array<std::pair<solve::LinearSolver, std::string_view>, 4> names{
+      {{automatic, "auto"},
+       {preconditioned, "preconditioned"},
+       {umfpack, "umfpack"},
+       {klu, "klu"}}};
+};
 }  // namespace vesica
 
 namespace vesica::solve {
@@ -59,7 +72,7 @@ struct SolverOptions {
   TimeStep time_step{};
   bool tangential_fields = true;
   NewtonMode newton = NewtonMode::krylov;
-  linalg::DirectSolverKind linear_solver = linalg::default_direct_solver;
+  LinearSolver linear_solver = LinearSolver::automatic;
   bool final_constraint_solve = true;
   bool polish = false;
   int threads = 0;
@@ -97,6 +110,10 @@ struct SolverOptions {
         self.constraint_rate);
     other_fields(self, visit);
   }
+  /// Tells whether the flow is solved without LU factors, p eliminated.
+  [[nodiscard]] bool is_preconditioned() const;
+  /// Returns the library of LU factors where these are needed.
+  [[nodiscard]] linalg::DirectSolverKind direct_solver() const;
   /// Refuses options that the method cannot carry out. Throws ConfigError.
   void check_together() const;
 
@@ -115,7 +132,10 @@ struct SolverOptions {
     visit(Field{"newton", "-", "krylov (GMRES, factors as preconditioner) or direct", Rule::any,
                 Users(ida)},
           self.newton);
-    visit(Field{"linear_solver", "-", "sparse factorisation: umfpack or klu"}, self.linear_solver);
+    visit(Field{"linear_solver", "-",
+                "auto, preconditioned (variational scheme: Cholesky factors of second-order "
+                "operators), or a sparse LU factorisation: umfpack or klu"},
+          self.linear_solver);
     visit(Field{"final_constraint_solve", "-", "take the constraints to round-off at the end"},
           self.final_constraint_solve);
     visit(Field{"polish", "-", "at the end, Newton's method on the equations of the equilibrium"},

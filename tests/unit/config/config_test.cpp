@@ -178,18 +178,21 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"[constraints]\nphase_fraction = 1.5",
                  "case.toml:2:18: constraints.phase_fraction = 1.5: must be between 0 and 1"},
         BadInput{"[solver]\nlinear_solver = 'umfpak'",
-                 "case.toml:2:17: solver.linear_solver = 'umfpak': must be one of \"umfpack\", "
-                 "\"klu\"; did you mean "
-                 "\"umfpack\"?"},
+                 "case.toml:2:17: solver.linear_solver = 'umfpak': must be one of \"auto\", "
+                 "\"preconditioned\", \"umfpack\", \"klu\"; did you mean \"umfpack\"?"},
         BadInput{"[phase]\ndirections = [[1, 0]]",
                  "case.toml:2:14: phase.directions = [ [ 1, 0 ] ]: must be an array of arrays of 3 "
                  "numbers"},
         BadInput{"[adaption]\nenabled = true\n[solver]\nmethod = 'minimize'",
-                 "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\" and "
-                 "solver.scheme = \"paper\", not \"minimize\" and \"paper\""},
-        BadInput{"[adaption]\nenabled = true\n[solver]\nscheme = 'variational'",
-                 "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\" and "
-                 "solver.scheme = \"paper\", not \"ida\" and \"variational\""},
+                 "case.toml:2:11: adaption.enabled = true: needs solver.method = \"ida\", not "
+                 "\"minimize\""},
+        BadInput{"[solver]\nlinear_solver = 'preconditioned'",
+                 "case.toml:2:17: solver.linear_solver = preconditioned: must be auto, umfpack or "
+                 "klu but for solver.method = ida with solver.scheme = variational"},
+        BadInput{"[solver]\nscheme = 'variational'\nnewton = 'direct'\n"
+                 "linear_solver = 'preconditioned'",
+                 "case.toml:4:17: solver.linear_solver = preconditioned: must be auto, umfpack or "
+                 "klu for solver.newton = direct"},
         BadInput{"[adaption]\nn_kappa = 3",
                  "case.toml:2:11: adaption.n_kappa = 3: means nothing with adaption.method = "
                  "\"local\""},

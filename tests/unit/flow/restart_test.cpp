@@ -5,6 +5,7 @@
 
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/problem/normal_graph.hpp"
 #include "vesica/run/make_stepper.hpp"
 
 namespace vesica::flow {
@@ -52,11 +53,31 @@ TEST(Restart, BeginsWithTheGivenStep) {
   EXPECT_EQ(report.counts.steps, 1);
 }
 
-TEST(Restart, IsForTheFlowOfThePaperAlone) {
+TEST(Restart, OfTheVariationalFlowTakesTheSurfaceAndItsNormalVelocity) {
   const auto c = test::table_1_case(2);
-  solve::SolverOptions variational;
-  variational.scheme = solve::Scheme::variational;
-  EXPECT_THROW((void)run::restart_stepper(variational, c.model, c.start, {}), ConfigError);
+  const auto state = moving_state(c);
+  for (const auto kind : {solve::LinearSolver::automatic, solve::LinearSolver::klu}) {
+    solve::SolverOptions variational;
+    variational.scheme = solve::Scheme::variational;
+    variational.linear_solver = kind;
+    const double size = 1e-2 * state.time;
+    const auto stepper = run::restart_stepper(variational, c.model, state, {size});
+    EXPECT_LT((stepper->state().values.positions - state.values.positions).norm(), 1e-14);
+    EXPECT_EQ(stepper->state().values.order_parameter, state.values.order_parameter);
+    EXPECT_EQ(stepper->state().rates.order_parameter, state.rates.order_parameter);
+    const auto normals = problem::nodal_normals(*state.triangulation, state.values.positions);
+    const Eigen::VectorXd speed = state.rates.positions.cwiseProduct(normals).rowwise().sum();
+    ASSERT_GT(speed.norm(), 0.1);
+    EXPECT_LT((stepper->state().rates.positions - speed.asDiagonal() * normals).norm(),
+              1e-12 * speed.norm());
+    const auto report = stepper->step(infinity);
+    ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+    EXPECT_DOUBLE_EQ(report.step_size, size);
+  }
+}
+
+TEST(Restart, IsForFlowsAlone) {
+  const auto c = test::table_1_case(2);
   solve::SolverOptions minimise;
   minimise.method = solve::Method::minimize;
   EXPECT_THROW((void)run::restart_stepper(minimise, c.model, c.start, {}), ConfigError);

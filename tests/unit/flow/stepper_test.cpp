@@ -15,7 +15,6 @@
 namespace vesica::flow {
 namespace {
 
-using linalg::DirectSolverKind;
 using test::RelaxationCase;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -54,9 +53,9 @@ TEST(IdaStepper, TakesTheSameTrajectoryWithEitherFactorisation) {
   for (const auto newton : {solve::NewtonMode::direct, solve::NewtonMode::krylov}) {
     solve::SolverOptions umfpack;
     umfpack.newton = newton;
-    umfpack.linear_solver = DirectSolverKind::umfpack;
+    umfpack.linear_solver = solve::LinearSolver::umfpack;
     solve::SolverOptions klu = umfpack;
-    klu.linear_solver = DirectSolverKind::klu;
+    klu.linear_solver = solve::LinearSolver::klu;
     EXPECT_LT(distance_at(end_time, umfpack, klu), solver_tolerance);
   }
 }

@@ -1,0 +1,104 @@
+#include "reduced_preconditioner.hpp"
+
+#include <algorithm>
+
+#include "problem/nodal_operator.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/model/two_phase.hpp"
+
+namespace vesica::solve {
+
+using problem::OperatorWeights;
+
+ReducedPreconditioner::ReducedPreconditioner(const problem::ReducedProblem& problem,
+                                             const problem::Scales& scales)
+    : problem_(problem),
+      shift_(2 / (scales.length * scales.length)),
+      bending_(problem.energy_problem().graph().block_pattern(1)),
+      phase_(problem.energy_problem().graph().block_pattern(1), bending_) {}
+
+void ReducedPreconditioner::factorise_bending(const problem::ReducedPoint& point,
+                                              const problem::JacobianWeights& weights) {
+  const auto& energy = problem_.energy_problem();
+  const auto material = problem_.model().material.at(point.time);
+  const auto& directions = problem_.graph().directions;
+  const auto operator_with = [&](auto&& weights_at) {
+    return assemble_operator(energy, point.fields, directions, problem_.threads(), weights_at);
+  };
+  if (is_metric_) {
+    bending_.factorise(operator_with([&](const Pack&, const Pack& cosine) {
+      return OperatorWeights{0.0, weights.rate * cosine * cosine};
+    }));
+    return;
+  }
+  bending_.factorise(operator_with([&](const Pack& c, const Pack& cosine) {
+    const Pack root = sqrt(model::interpolate(material.bending_rigidity, c));
+    return OperatorWeights{cosine * root, cosine * max(std::sqrt(weights.rate), shift_ * root)};
+  }));
+  mass_ = operator_with([](const Pack&, const Pack&) { return OperatorWeights{0.0, 1.0}; });
+}
+
+/// The second derivative of the double well, 6 c^2 - 2 with its factor, is negative in the
+/// interface: held above a part of the other terms.
+void ReducedPreconditioner::factorise_phase(const problem::ReducedPoint& point,
+                                            const problem::JacobianWeights& weights) {
+  const auto material = problem_.model().material.at(point.time);
+  const double sigma = material.line_tension;
+  const double eps = material.interface_width;
+  const double mobility = weights.rate * eps * material.kinetic_coefficient;
+  const double floor = std::max(0.5 * mobility, 0.5 * sigma / eps);
+  phase_.factorise(assemble_operator(
+      problem_.energy_problem(), point.fields, problem_.graph().directions, problem_.threads(),
+      [&](const Pack& c, const Pack&) {
+        if (is_metric_) return OperatorWeights{0.0, mobility};
+        return OperatorWeights{sigma * eps,
+                               max(mobility + sigma / eps * (6.0 * c * c - 2.0), floor)};
+      }));
+}
+
+void ReducedPreconditioner::set_up(const problem::ReducedPoint& point,
+                                   const problem::ReducedLinearisation& there,
+                                   const problem::JacobianWeights& weights) {
+  is_metric_ = weights.value == 0;
+  factorise_bending(point, weights);
+  if (problem_.model().is_two_phase) factorise_phase(point, weights);
+  rows_ = problem_.border_rows(there, weights);
+  solved_columns_ = solve_nodal(there.columns);
+  Eigen::MatrixXd schur = rows_ * solved_columns_;
+  for (Eigen::Index k = 0; k < schur.cols(); ++k) {
+    if (there.columns.col(k).isZero(0)) schur(k, k) -= 1;  // no such rigid motion: mu_k = 0
+  }
+  schur_.compute(schur);
+  if (!solved_columns_.allFinite() || schur_.matrixLU().diagonal().cwiseAbs().minCoeff() == 0)
+    throw RecoverableError("preconditioner: the constraints are not independent");
+}
+
+Eigen::MatrixXd ReducedPreconditioner::solve_nodal(const Eigen::MatrixXd& b) const {
+  const auto n = problem_.num_nodes();
+  Eigen::MatrixXd x(b.rows(), b.cols());
+  Eigen::MatrixXd first = bending_.solve(b.topRows(n));
+  if (!is_metric_) {
+    const auto size = static_cast<std::size_t>(n);
+    Eigen::VectorXd product(n);
+    for (Eigen::Index k = 0; k < b.cols(); ++k) {
+      mass_.multiply({first.col(k).data(), size}, {product.data(), size});
+      first.col(k) = product;
+    }
+    first = bending_.solve(first);
+  }
+  x.topRows(n) = first;
+  if (problem_.model().is_two_phase) x.bottomRows(n) = phase_.solve(b.bottomRows(n));
+  return x;
+}
+
+Eigen::VectorXd ReducedPreconditioner::solve(const Eigen::VectorXd& b) const {
+  const auto n = solved_columns_.rows();
+  const auto m = solved_columns_.cols();
+  Eigen::VectorXd x(n + m);
+  const Eigen::VectorXd head = solve_nodal(b.head(n));
+  x.tail(m) = schur_.solve(rows_ * head - b.tail(m));
+  x.head(n) = head - solved_columns_ * x.tail(m);
+  return x;
+}
+
+}  // namespace vesica::solve
