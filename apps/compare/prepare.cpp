@@ -1,5 +1,6 @@
 #include "prepare.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/program.hpp"
@@ -7,6 +8,22 @@
 #include "vesica/run/run.hpp"
 
 namespace vesica {
+
+namespace {
+
+/// Those of all runs, each once.
+std::vector<std::string> warnings_of(const PreparedComparison& comparison) {
+  std::vector<std::string> warnings;
+  for (const auto& run : comparison.runs) {
+    for (const std::string& warning : run.vesicle.warnings) {
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+        warnings.push_back(warning);
+    }
+  }
+  return warnings;
+}
+
+}  // namespace
 
 PreparedComparison prepare(const Arguments& arguments) {
   const std::string& case_file = arguments.inputs.front();
@@ -23,7 +40,7 @@ PreparedComparison prepare(const Arguments& arguments) {
     result.runs.push_back({column.name, std::move(config), std::move(vesicle)});
   }
   io::check_comparison_folder(result.folder, arguments.options.overwrites);
-  print_warnings(result.runs.front().vesicle.warnings);
+  print_warnings(warnings_of(result));
   return result;
 }
 

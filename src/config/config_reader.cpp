@@ -151,21 +151,6 @@ void apply_method(const CaseDocument& document, RunConfig& config) {
   config.stop.steps_without_newton = 10;
 }
 
-bool moves(const model::Schedule& schedule) { return !schedule.is_constant(); }
-bool moves(const model::PhaseSchedules& pair) { return moves(pair.phase_1) || moves(pair.phase_2); }
-bool moves(const model::Target& target) { return target.begins_at_start || moves(target.schedule); }
-bool moves(const std::optional<double>&) { return false; }
-
-/// The first key whose schedule is not constant.
-template <class Options>
-std::string_view moving_key(const Options& options) {
-  std::string_view key;
-  Options::fields(options, [&key](const Field& field, const auto& value) {
-    if (key.empty() && moves(value)) key = field.name;
-  });
-  return key;
-}
-
 void check_rules_between_options(const CaseDocument& document, const RunConfig& config) {
   const auto refuse = [&document](std::string_view table, std::string_view key,
                                   std::string_view rule) {
@@ -173,14 +158,19 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
     const std::string path = fmt::format("{}.{}", table, key);
     Entry{document.place(path, node->source()), path, *node}.refuse(rule);
   };
-  if (config.solver.method == solve::Method::minimize) {
-    constexpr std::string_view rule = "must be constant for solver.method = \"minimize\"";
-    const auto material = moving_key(config.material);
-    const auto target = moving_key(config.constraints);
-    if (!material.empty()) refuse("material", material, rule);
-    if (!target.empty()) refuse("constraints", target, rule);
-  }
   if (config.output.directory.empty()) refuse("output", "directory", "must not be empty");
+}
+
+/// Which methods can go on from a state on a new mesh.
+void check_adaption(const solve::SolverOptions& solver, relax::MeshMethod method) {
+  if (solver.method == solve::Method::minimize) {
+    if (method == relax::MeshMethod::local) return;
+    refuse("adaption.method", name_of(method), "must be local for solver.method = minimize");
+  }
+  if (solver.method == solve::Method::ida) return;
+  refuse("adaption.enabled", true,
+         fmt::format("needs solver.method = \"minimize\" or \"ida\", not \"{}\"",
+                     name_of(solver.method)));
 }
 
 }  // namespace
@@ -209,11 +199,7 @@ void check(const RunConfig& config) {
       vesica::check(table.name, options);
     }
   });
-  const solve::SolverOptions& solver = config.solver;
-  if (config.adaption.enabled && solver.method != solve::Method::ida) {
-    refuse("adaption.enabled", true,
-           fmt::format("needs solver.method = \"ida\", not \"{}\"", name_of(solver.method)));
-  }
+  if (config.adaption.enabled) check_adaption(config.solver, config.adaption.method);
 }
 
 std::string placed(const RunConfig& config, std::string_view message) {

@@ -40,14 +40,16 @@ constexpr double least_gain = 0.02;  // of half the squared distance to the mini
 }  // namespace
 
 CeresStepper::CeresStepper(const solve::SolverOptions& options, const model::Model& model,
-                           problem::State start)
+                           problem::State start, MeshKeeper keeper)
     : options_(options),
       state_(std::move(start)),
       scales_(problem::scales_of(model, state_)),
       problem_(state_.triangulation, model, options.threads),
       constraints_(model, scales_),
       metric_(problem_, scales_),
-      mesh_care_(surface(state_.values.positions)) {
+      mesh_care_(surface(state_.values.positions)),
+      keeper_(keeper),
+      first_time_(state_.time) {
   const ScopedTimer timer(seconds_.total);
   try {
     sample_at(state_.values.positions, state_.values.order_parameter);
@@ -222,7 +224,7 @@ void CeresStepper::choose_multipliers(const InnerProblem& last, double error_bef
 void CeresStepper::care_for_mesh() {
   const auto& fields = point_.sample.fields;
   const auto before = mesh_condition(surface(fields.positions));
-  if (!mesh_care_.is_worn(before)) return;
+  if (keeper_ == MeshKeeper::caller || !mesh_care_.is_worn(before)) return;
   const auto moved = mesh_care_.redistribute(surface(fields.positions), fields.order_parameter);
   sample_at(moved.positions, moved.order_parameter);
   renew_reference();
@@ -246,7 +248,7 @@ void CeresStepper::retreat() {
 
 void CeresStepper::store() {
   const auto& fields = point_.sample.fields;
-  state_.time = static_cast<double>(counts_.steps);
+  state_.time = first_time_ + static_cast<double>(counts_.steps);
   state_.damping = 0;
   state_.values = {fields.positions, problem_.mean_curvature(fields), fields.order_parameter,
                    constraints_.named(multipliers_)};

@@ -12,6 +12,10 @@
 
 namespace vesica::minimise {
 
+/// Who looks after the mesh: the stepper moves nodes along the surface, or its caller remeshes. A
+/// mesh whose elements differ in size on purpose must not be made even.
+enum class MeshKeeper { stepper, caller };
+
 /// Minimises the discrete energy at fixed volume, area and phase difference. A step is one outer
 /// iteration: a normal graph over the present surface, multipliers, some iterations of L-BFGS on
 /// the augmented Lagrangian in preconditioned variables, and when the mesh has become worse, a
@@ -19,7 +23,7 @@ namespace vesica::minimise {
 /// mesh is degenerate or whose line search finds nothing is tried again with shorter steps, then
 /// fails.
 ///
-/// There is no time: `State::time` counts outer iterations, so that the frames of a run are apart,
+/// There is no time: `State::time` counts outer iterations on from that of the start, so that the frames of a run are apart,
 /// and the rates are the velocity that the gradient flow would have in the state. In the reports,
 /// `newton` counts iterations of L-BFGS, `residuals` evaluations of energy and gradient,
 /// `jacobians` the surfaces whose operators were assembled, `factorisations` those of Cholesky and
@@ -28,8 +32,8 @@ class CeresStepper final : public solve::Stepper {
  public:
   /// Makes the stepper. Throws ConfigError for a target that changes in time, SolverError for a
   /// degenerate start.
-  CeresStepper(const solve::SolverOptions& options, const model::Model& model,
-               problem::State start);
+  CeresStepper(const solve::SolverOptions& options, const model::Model& model, problem::State start,
+               MeshKeeper keeper = MeshKeeper::stepper);
 
   [[nodiscard]] const problem::State& state() const override { return state_; }
   [[nodiscard]] std::optional<model::EnergyParts> energy() const override {
@@ -81,6 +85,8 @@ class CeresStepper final : public solve::Stepper {
   ConstraintSet constraints_;
   EnergyMetric metric_;
   MeshCare mesh_care_;
+  MeshKeeper keeper_;
+  double first_time_;
   problem::NormalGraph graph_;
   std::optional<MinimiserCoordinates> coordinates_;  // of graph_ and metric_
   GraphPoint point_;

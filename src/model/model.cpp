@@ -20,6 +20,14 @@ struct CollectSchedules {
   void operator()(const Field&, const std::optional<double>&) const {}
 };
 
+struct TakeLastValue {
+  void operator()(const Field&, Schedule& schedule) const { schedule = schedule.last(); }
+  void operator()(const Field&, PhaseSchedules& pair) const {
+    pair = {pair.phase_1.last(), pair.phase_2.last()};
+  }
+  void operator()(const Field&, const std::optional<double>&) const {}
+};
+
 }  // namespace
 
 std::vector<NamedSchedule> schedules_of(const Model& model) {
@@ -56,6 +64,15 @@ double Model::rests_after() const {
   double last = -std::numeric_limits<double>::infinity();
   for (const auto& named : schedules_of(*this)) last = std::max(last, named.schedule.rests_after());
   return last;
+}
+
+Model Model::at_rest() const {
+  Model result = *this;
+  MaterialOptions::fields(result.material, TakeLastValue{});
+  for (auto& target : result.targets.values) {
+    if (target) target = Schedule(target->last());
+  }
+  return result;
 }
 
 }  // namespace vesica::model

@@ -24,6 +24,12 @@ constexpr double slow = 0.03;  // velocities in natural units
 constexpr double moving = 0.3;
 constexpr int max_changes_after_failures = 5;
 
+// Distances to the minimum of a minimiser, which has no velocity.
+constexpr double near_minimum = 1e-2;
+constexpr double far_from_minimum = 0.3;
+constexpr double at_minimum = 1e-3;
+constexpr long steps_of_minimiser = 2;
+
 }  // namespace
 
 void AdaptionOptions::check_together() const {
@@ -42,16 +48,16 @@ MeshController::MeshController(const AdaptionOptions& options, model::Model mode
 std::vector<Request> MeshController::respond(const StepView& view) {
   if (!new_quality_) new_quality_ = view.diagnostics.quality;
   if (view.report.counts.steps == 0) return {};
-  const bool may_change = view.report.counts.steps - last_change_ >= options_.min_steps;
-  if (may_change && speed(view) > moving) is_final_ = false;
+  if (may_change(view) && is_moving(view)) is_final_ = false;
   if (auto reason = misfit(view)) return ask(view, std::move(*reason));
-  if (is_final_ || !may_change || speed(view) > slow) return {};
+  if (is_final_ || !may_change(view) || !is_slow(view)) return {};
   is_final_ = true;
   return ask(view, "the vesicle is near its equilibrium");
 }
 
 std::vector<Request> MeshController::respond_to_failure(const StepView& view) {
   if (changes_after_failures_ == max_changes_after_failures) return {};
+  if (is_final_ && view.report.gradient && *view.report.gradient < at_minimum) return {};
   ++changes_after_failures_;
   return ask(view, "a step failed");
 }
@@ -78,14 +84,15 @@ std::vector<Request> MeshController::ask(const StepView& view, std::string reaso
 
 /// Why the mesh does not fit the surface.
 std::optional<std::string> MeshController::misfit(const StepView& view) const {
+  const bool is_near_rest = is_final_ && is_slow(view);
+  if (is_near_rest && view.report.gradient) return std::nullopt;
   const Eigen::VectorXd sizes =
       wanted_sizes(model_, view.state, size_options(), options_.max_nodes);
   const mesh::Surface surface = view.state.surface();
   const double edge = adapt::longest_relative_edge(surface, sizes);
-  const bool is_near_rest = is_final_ && speed(view) < slow;
   if (edge > (is_near_rest ? emergency_edge_near_rest : emergency_edge))
     return fmt::format("an edge is {:.2f} of its size", edge);
-  if (view.report.counts.steps - last_change_ < options_.min_steps) return std::nullopt;
+  if (!may_change(view)) return std::nullopt;
   const double quality = view.diagnostics.quality;
   if (quality < low_quality && quality < lost_quality * *new_quality_)
     return fmt::format("the quality fell to {:.2f}", quality);
@@ -94,6 +101,19 @@ std::optional<std::string> MeshController::misfit(const StepView& view) const {
   if (wanted < surplus_nodes * surface.triangulation->num_nodes())
     return fmt::format("{:.0f} nodes are wanted", wanted);
   return std::nullopt;
+}
+
+bool MeshController::may_change(const StepView& view) const {
+  const long wait = view.report.gradient ? steps_of_minimiser : options_.min_steps;
+  return view.report.counts.steps - last_change_ >= wait;
+}
+
+bool MeshController::is_slow(const StepView& view) const {
+  return view.report.gradient ? *view.report.gradient < near_minimum : speed(view) <= slow;
+}
+
+bool MeshController::is_moving(const StepView& view) const {
+  return view.report.gradient ? *view.report.gradient > far_from_minimum : speed(view) > moving;
 }
 
 /// Of the surface along its normal, without rigid motion, in natural units.

@@ -30,10 +30,14 @@ std::unique_ptr<solve::Stepper> restart_stepper(const solve::SolverOptions& opti
                                                 const model::Model& model, problem::State start,
                                                 const solve::Restart& restart) {
   check("solver", options);
+  if (options.method == solve::Method::minimize) {
+    return std::make_unique<minimise::CeresStepper>(options, model, std::move(start),
+                                                    minimise::MeshKeeper::caller);
+  }
   if (options.method != solve::Method::ida) {
-    throw ConfigError(
-        fmt::format("solver.method = {}: a run goes on from a given state only with ida",
-                    name_of(options.method)));
+    throw ConfigError(fmt::format(
+        "solver.method = {}: a run goes on from a given state only with ida or minimize",
+        name_of(options.method)));
   }
   return std::make_unique<flow::IdaStepper>(options, model, std::move(start), restart);
 }

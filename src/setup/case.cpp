@@ -169,15 +169,33 @@ model::Measures measures_of(const problem::State& state) {
   return measure::measure({{}, state.is_two_phase(), {}}, state).measures;
 }
 
-/// Material and targets; a phase target that needs the phase field stays absent before there is
-/// one.
-model::Model model_of(const config::RunConfig& config, const model::Measures& start) {
+/// Material and targets as given; a phase target that needs the phase field stays absent before
+/// there is one.
+model::Model given_model(const config::RunConfig& config, const model::Measures& start) {
   model::Model model;
   model.is_two_phase = config.phase.has_value();
   model.targets = model::make_targets(config.constraints, start, model.is_two_phase);
   const auto& area = model.targets.of<model::Area>();
   model.material = model::resolved_material(config.material, area ? area->value(0) : start.area());
   return model;
+}
+
+/// A minimiser knows no time.
+model::Model model_of(const config::RunConfig& config, const model::Measures& start) {
+  model::Model model = given_model(config, start);
+  return config.solver.method == solve::Method::minimize ? model.at_rest() : model;
+}
+
+void warn_of_schedules(const config::RunConfig& config, Case& vesicle) {
+  if (config.solver.method != solve::Method::minimize) return;
+  const model::Model given = given_model(config, vesicle.origin.measures);
+  for (const auto& [table, key, schedule] : model::schedules_of(given)) {
+    if (schedule.is_constant()) continue;
+    vesicle.warnings.push_back(fmt::format(
+        "{}.{} = {}: solver.method = \"minimize\" knows no time and takes the last value "
+        "{:g}",
+        table, key, text_of(schedule), schedule.last()));
+  }
 }
 
 Eigen::VectorXd order_parameter_of(const config::RunConfig& config, const mesh::Surface& surface,
@@ -214,6 +232,7 @@ Case case_of(const config::RunConfig& config, problem::State start,
   vesicle.model = model_of(config, vesicle.origin.measures);
   vesicle.start = std::move(start);
   vesicle.warnings = warnings_of(config, vesicle);
+  warn_of_schedules(config, vesicle);
   untie_sphere(vesicle);
   return vesicle;
 }

@@ -52,7 +52,8 @@ struct AdaptionOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     using enum MeshMethod;
-    visit(Field{"enabled", "-", "new meshes where the surface needs them; method ida only"},
+    visit(Field{"enabled", "-",
+                "new meshes where the surface needs them; not for method semi-implicit"},
           self.enabled);
     visit(Field{"method", "-",
                 "local (towards a size field), bisection (3.5) or conformal (bisection, and the "
@@ -78,9 +79,10 @@ struct AdaptionOptions {
                 "allows",
                 Rule::at_least_one},
           self.max_nodes);
-    visit(Field{"min_steps", "-", "steps between changes of the mesh, but for emergencies",
-                Rule::at_least_one, Users(local)},
-          self.min_steps);
+    visit(
+        Field{"min_steps", "-", "steps of a flow between changes of the mesh, but for emergencies",
+              Rule::at_least_one, Users(local)},
+        self.min_steps);
     bisection_fields(self, visit);
   }
   /// Throws ConfigError for fields that are changed but not used by the method.
@@ -123,6 +125,11 @@ struct AdaptionOptions {
 /// without waiting: an edge longer than 2.2 L, of a fine mesh below that velocity 3 L; after failed
 /// steps, 5 times at most; and before the run ends in an equilibrium: the fine mesh if there is
 /// none yet.
+///
+/// A minimiser has no velocity but a distance to the minimum (solve::StepReport::gradient), and
+/// its steps are few and long. It gets the fine mesh below the distance 0.01, coarse ones again
+/// above 0.3, at least 2 steps after the last change. Once it is near the minimum on the fine mesh,
+/// that mesh stays, whatever its edges, and below 1e-3 also after a failed step.
 class MeshController final : public Controller {
  public:
   /// Makes the controller. The `scales` of the case give the units of max_size and of the velocity.
@@ -135,6 +142,9 @@ class MeshController final : public Controller {
   [[nodiscard]] adapt::SizeFieldOptions size_options() const;
   [[nodiscard]] std::vector<Request> ask(const StepView& view, std::string reason);
   [[nodiscard]] std::optional<std::string> misfit(const StepView& view) const;
+  [[nodiscard]] bool may_change(const StepView& view) const;
+  [[nodiscard]] bool is_slow(const StepView& view) const;
+  [[nodiscard]] bool is_moving(const StepView& view) const;
   [[nodiscard]] double speed(const StepView& view) const;
 
   AdaptionOptions options_;

@@ -76,11 +76,12 @@ TEST(Restart, OfTheVariationalFlowTakesTheSurfaceAndItsNormalVelocity) {
   }
 }
 
-TEST(Restart, IsForFlowsAlone) {
+TEST(Restart, IsNotForTheFixedStepScheme) {
   const auto c = test::table_1_case(2);
-  solve::SolverOptions minimise;
-  minimise.method = solve::Method::minimize;
-  EXPECT_THROW((void)run::restart_stepper(minimise, c.model, c.start, {}), ConfigError);
+  solve::SolverOptions fixed;
+  fixed.method = solve::Method::semi_implicit;
+  fixed.time_step.value = 1e-4;
+  EXPECT_THROW((void)run::restart_stepper(fixed, c.model, c.start, {}), ConfigError);
 }
 
 }  // namespace

@@ -148,5 +148,64 @@ TEST_F(MeshControllerTest, GivesUpAfterFiveFailures) {
   EXPECT_TRUE(controller.respond_to_failure(view_at(3)).empty());
 }
 
+/// The same for a minimiser: a distance to the minimum in place of a velocity.
+class MeshControllerOfAMinimiser : public MeshControllerTest {
+ protected:
+  StepView view_at_distance(long step, double distance) {
+    report_.gradient = distance;
+    return view_at(step);
+  }
+  /// Puts a controller on the fine mesh, at step 10.
+  void refine(MeshController& controller) {
+    ASSERT_EQ(controller.respond(view_at_distance(10, 9e-3)).size(), 1U);
+  }
+};
+
+TEST_F(MeshControllerOfAMinimiser, WaitsTwoStepsBetweenChanges) {
+  set_relative_edge(2);
+  MeshController controller(options_, model_, scales_);
+  for (long step = 0; step <= 9; ++step) {
+    EXPECT_EQ(controller.respond(view_at_distance(step, 5)).empty(), step == 0 || step % 2 != 0)
+        << step;
+  }
+}
+
+TEST_F(MeshControllerOfAMinimiser, AsksOnceForTheFineMeshWithinAHundredthOfTheMinimum) {
+  options_.final_curvature_angle = 0.9 * options_.curvature_angle;
+  MeshController controller(options_, model_, scales_);
+  diagnostics_.velocity.normal_rigid_free = 1e-6;  // says nothing
+  EXPECT_TRUE(controller.respond(view_at_distance(9, 1.1e-2)).empty());
+  const auto requests = controller.respond(view_at_distance(10, 9e-3));
+  ASSERT_EQ(requests.size(), 1U);
+  const auto& plan = std::get<Remesh>(requests.front()).plan;
+  EXPECT_EQ(std::get<adapt::SizeFieldOptions>(plan).curvature_angle,
+            options_.final_curvature_angle);
+  EXPECT_TRUE(controller.respond(view_at_distance(20, 9e-3)).empty());
+}
+
+TEST_F(MeshControllerOfAMinimiser, KeepsTheFineMeshNearTheMinimumWhateverItsEdges) {
+  options_.final_curvature_angle = edge_for_unit_angle() / 3.1;
+  MeshController controller(options_, model_, scales_);
+  refine(controller);
+  EXPECT_TRUE(controller.respond(view_at_distance(20, 9e-3)).empty());
+  EXPECT_EQ(controller.respond(view_at_distance(21, 1.1e-2)).size(), 1U);
+}
+
+TEST_F(MeshControllerOfAMinimiser, GoesBackToTheCoarseMeshFarFromTheMinimum) {
+  options_.final_curvature_angle = edge_for_unit_angle() / 2.5;
+  MeshController controller(options_, model_, scales_);
+  refine(controller);
+  EXPECT_EQ(controller.respond(view_at_distance(12, 0.29)).size(), 1U);
+  EXPECT_TRUE(controller.respond(view_at_distance(14, 0.31)).empty());
+}
+
+TEST_F(MeshControllerOfAMinimiser, TakesNoFailureAtTheMinimumForOneOfTheFineMesh) {
+  MeshController controller(options_, model_, scales_);
+  EXPECT_EQ(controller.respond_to_failure(view_at_distance(5, 9e-4)).size(), 1U);
+  refine(controller);
+  EXPECT_EQ(controller.respond_to_failure(view_at_distance(20, 1.1e-3)).size(), 1U);
+  EXPECT_TRUE(controller.respond_to_failure(view_at_distance(20, 9e-4)).empty());
+}
+
 }  // namespace
 }  // namespace vesica::relax

@@ -78,5 +78,28 @@ TEST(CaseWarnings, TellWhereTheMeshDoesNotResolveTheInterfaceUnlessItAdapts) {
   EXPECT_EQ(warnings_of(config), "");
 }
 
+TEST(CaseOfAMinimiser, TakesTheLastValuesOfSchedulesAndSaysSo) {
+  config::RunConfig config;
+  config.solver.method = solve::Method::minimize;
+  config.phase.emplace();
+  config.material.line_tension = model::Schedule::ramp(1, 2, 0, 5);
+  config.constraints.targets.of<model::Volume>() = {model::TargetKind::prescribed,
+                                                    model::Schedule::ramp(0, 2.6, 0, 0.1), true};
+  const Case vesicle = make_case(config);
+  EXPECT_EQ(vesicle.model.material.line_tension, model::Schedule(2));
+  EXPECT_EQ(*vesicle.model.targets.of<model::Volume>(), model::Schedule(2.6));
+  EXPECT_LT(vesicle.model.rests_after(), -1e300);
+  const std::string warnings = warnings_of(config);
+  EXPECT_NE(
+      warnings.find("material.line_tension = [1, 2, 0, 5]: solver.method = \"minimize\" knows "
+                    "no time and takes the last value 2\n"),
+      std::string::npos)
+      << warnings;
+  EXPECT_NE(warnings.find("constraints.volume"), std::string::npos);
+  config.solver.method = solve::Method::ida;
+  EXPECT_EQ(make_case(config).model.material.line_tension, config.material.line_tension);
+  EXPECT_EQ(warnings_of(config), "");
+}
+
 }  // namespace
 }  // namespace vesica::setup
