@@ -30,7 +30,6 @@ constexpr double smallest_cosine = 0.6;     // between a normal and that of the 
 constexpr double move_to_keep = 5e-3;
 constexpr double move_to_release = 0.02;
 constexpr double quality_to_release = 0.85;
-constexpr double far_from_minimum = 1e-2;  // distances to the minimum, in k_1^(1/2)
 
 constexpr double shorter_trial = 0.2;
 constexpr int max_attempts = 4;
@@ -49,7 +48,8 @@ CeresStepper::CeresStepper(const solve::SolverOptions& options, const model::Mod
       metric_(problem_, scales_),
       mesh_care_(surface(state_.values.positions)),
       keeper_(keeper),
-      first_time_(state_.time) {
+      first_time_(state_.time),
+      newton_distance_(near_minimum) {
   const ScopedTimer timer(seconds_.total);
   try {
     sample_at(state_.values.positions, state_.values.order_parameter);
@@ -78,6 +78,7 @@ std::string CeresStepper::try_step() {
   for (int attempt = 0; attempt < max_attempts && stalls_ < max_stalls; ++attempt) {
     try {
       if (is_reference_old_) renew_reference();
+      if (try_newton()) return {};
       const InnerProblem inner = inner_problem();
       auto result = minimise(inner);
       trouble = objection(result);
@@ -200,7 +201,7 @@ void CeresStepper::accept(InnerResult result, const InnerProblem& inner) {
   keeps_reference_ = stalls_ == 0 && move < (keeps_reference_ ? move_to_release : move_to_keep) &&
                      quality > quality_to_release * reference_quality_;
   is_reference_old_ = !keeps_reference_;
-  if (distance() > far_from_minimum || stalls_ > 0) {
+  if (distance() > near_minimum || stalls_ > 0) {
     care_for_mesh();
     next_multipliers_ = multipliers_;
   } else {
@@ -273,7 +274,7 @@ double CeresStepper::distance() const {
   return slopes_.distance(multipliers_) / std::sqrt(scales_.energy);
 }
 
-solve::StepReport CeresStepper::report(solve::StepStatus status, std::string reason) const {
+solve::StepReport CeresStepper::report(solve::StepStatus status, std::string reason) {
   solve::StepReport result;
   result.status = status;
   result.time = state_.time;
@@ -281,6 +282,7 @@ solve::StepReport CeresStepper::report(solve::StepStatus status, std::string rea
   result.counts = counts_;
   result.seconds = seconds_;
   result.reason = std::move(reason);
+  result.event = std::exchange(event_, {});
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "inner_minimisation.hpp"
 #include "mesh_care.hpp"
+#include "tangent_newton.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/solve/polish.hpp"
 #include "vesica/solve/solver_options.hpp"
@@ -15,6 +16,9 @@ namespace vesica::minimise {
 /// Who looks after the mesh: the stepper moves nodes along the surface, or its caller remeshes. A
 /// mesh whose elements differ in size on purpose must not be made even.
 enum class MeshKeeper { stepper, caller };
+
+/// Distance to the minimum, in k_1^(1/2), below which second derivatives are of use.
+constexpr double near_minimum = 1e-2;
 
 /// Minimises the discrete energy at fixed volume, area and phase difference. A step is one outer
 /// iteration: a normal graph over the present surface, multipliers, some iterations of L-BFGS on
@@ -58,14 +62,28 @@ class CeresStepper final : public solve::Stepper {
   /// Returns what speaks against the result of an inner minimisation; empty when nothing does.
   [[nodiscard]] std::string objection(const InnerResult& result);
   void accept(InnerResult result, const InnerProblem& inner);
+  /// Tells whether a Newton step, or one away from a saddle, has been made in place of L-BFGS.
+  [[nodiscard]] bool try_newton();
+  [[nodiscard]] bool take_newton_step(const Eigen::VectorXd& change);
+  [[nodiscard]] ReducedHessian hessian();
+  [[nodiscard]] Eigen::VectorXd restored(Eigen::VectorXd unknowns) const;
+  /// Returns a point of lower energy along a change of the unknowns, one way or the other.
+  [[nodiscard]] std::optional<GraphPoint> lower_point(const Eigen::VectorXd& mode);
+  /// Moves to lower energy along the lowest mode; false when that does not curve downwards.
+  [[nodiscard]] bool go_down(const solve::Eigenpair& lowest);
+  /// Returns what kind of equilibrium the state is; empty when it is a saddle that has been left.
+  [[nodiscard]] std::string find_kind();
+  /// Returns the size of what is missing from the equilibrium, constraints included, in k_1^(1/2).
+  [[nodiscard]] double missing() const;
   void care_for_mesh();
   void retreat();
   void sample_at(const mesh::Positions& positions, const Eigen::VectorXd& order_parameter);
   [[nodiscard]] std::string restore_constraints();
   [[nodiscard]] solve::StepReport polish();
+  [[nodiscard]] solve::StepReport meet_constraints();
   void take(const solve::Equilibrium& equilibrium);
   void store();
-  [[nodiscard]] solve::StepReport report(solve::StepStatus status, std::string reason) const;
+  [[nodiscard]] solve::StepReport report(solve::StepStatus status, std::string reason);
   [[nodiscard]] std::string stall_text() const;
   [[nodiscard]] std::string constraint_text() const;
 
@@ -98,7 +116,9 @@ class CeresStepper final : public solve::Stepper {
   bool keeps_reference_ = false;   // near the end
   double reference_quality_ = 0;
   double trial_step_ = 1;
-  int stalls_ = 0;  // steps in a row that gained next to nothing
+  int stalls_ = 0;          // steps in a row that gained next to nothing
+  double newton_distance_;  // Newton's method below it
+  std::string event_;       // of the next report
   solve::SolverCounts counts_;
   solve::SolverSeconds seconds_;
 };

@@ -23,7 +23,17 @@ constexpr double rounding = 1e-6;
 }  // namespace
 
 solve::StepReport CeresStepper::finish() {
-  if (options_.polish) return polish();
+  std::string kind;
+  if (distance() < near_minimum) {
+    kind = find_kind();
+    if (kind.empty()) return report(solve::StepStatus::accepted, {});
+  }
+  solve::StepReport result = options_.polish ? polish() : meet_constraints();
+  if (result.reason.empty()) result.reason = kind;
+  return result;
+}
+
+solve::StepReport CeresStepper::meet_constraints() {
   if (!options_.final_constraint_solve) return report(solve::StepStatus::accepted, {});
   std::string trouble;
   {

@@ -134,4 +134,11 @@ model::PerConstraint ConstraintSet::named(const Eigen::VectorXd& multipliers) co
   return values;
 }
 
+problem::Multipliers ConstraintSet::all(const Eigen::VectorXd& multipliers) const {
+  problem::Multipliers values{};
+  for (Eigen::Index k = 0; k < size(); ++k)
+    values[active_[static_cast<std::size_t>(k)]] = multipliers[k];
+  return values;
+}
+
 }  // namespace vesica::minimise

@@ -63,6 +63,8 @@ class ConstraintSet {
                                                     const Eigen::VectorXd& multipliers,
                                                     bool is_two_phase) const;
   [[nodiscard]] model::PerConstraint named(const Eigen::VectorXd& multipliers) const;
+  /// Returns the multipliers of all constraints, 0 for those that are not active.
+  [[nodiscard]] problem::Multipliers all(const Eigen::VectorXd& multipliers) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd relative_errors(

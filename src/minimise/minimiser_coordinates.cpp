@@ -27,13 +27,14 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rhs
   return svd.solve(rhs);
 }
 
+}  // namespace
+
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   qr.setThreshold(1e-6);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
-
-}  // namespace
 
 Eigen::VectorXd Slopes::multipliers() const {
   if (constraints.cols() == 0) return {};

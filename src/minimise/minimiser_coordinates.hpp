@@ -7,6 +7,9 @@
 
 namespace vesica::minimise {
 
+/// Returns an orthonormal basis of what the columns span, shape (n, rank).
+[[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
 /// Derivatives of energy and constraints with respect to z, with the rigid motions taken out.
 /// Constraints that depend on each other (volume and area of a sphere) share one direction.
 struct Slopes {
@@ -49,9 +52,10 @@ class MinimiserCoordinates {
   [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& z) const {
     return metric_->spread(z);
   }
+  /// Returns G z.
+  [[nodiscard]] Eigen::VectorXd without_rigid(Eigen::VectorXd z) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd without_rigid(Eigen::VectorXd z) const;
   [[nodiscard]] Eigen::VectorXd rescale(Eigen::VectorXd y) const;
 
   const EnergyMetric* metric_;

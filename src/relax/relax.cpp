@@ -65,6 +65,7 @@ class Run {
       }
       step_size_ = report_.step_size;
       measure();
+      record_event();
       end = find_nonsense();
       if (!end) end = look_and_respond();
     }
@@ -209,6 +210,11 @@ class Run {
     return true;
   }
 
+  /// What the stepper reports.
+  void record_event() {
+    if (!report_.event.empty()) record({report_.counts.steps, state().time, report_.event});
+  }
+
   void record(const Event& event) {
     outcome_.events.push_back(event);
     for (auto* observer : observers_) observer->happened(view(), event);
@@ -218,24 +224,24 @@ class Run {
   /// that does not work (dependent constraints, as on a sphere), the constraints of the step count.
   std::optional<Stop> try_to_finish() {
     const auto report = stepped([&] { return stepper_.current->finish(); });
-    const bool is_finished = report.status == solve::StepStatus::accepted;
-    if (is_finished) {
+    if (report.status == solve::StepStatus::accepted) {
       report_ = report;
       measure();
+      record_event();
     }
-    const std::string trouble = is_finished ? "" : "; " + report.reason;
+    const std::string found = report.reason.empty() ? "" : "; " + report.reason;
     if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
       return std::nullopt;
     }
     if (report_.gradient) {
       return Stop{RunStatus::converged,
                   fmt::format("distance to the minimum {:.2e} below {:g}, constraints met{}",
-                              *report_.gradient, stop_.gradient, trouble)};
+                              *report_.gradient, stop_.gradient, found)};
     }
     return Stop{
         RunStatus::converged,
         fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met{}",
-                    Stationarity::normal_velocity(diagnostics_), stop_.normal_velocity, trouble)};
+                    Stationarity::normal_velocity(diagnostics_), stop_.normal_velocity, found)};
   }
 
   Outcome conclude(const Stop& end) {

@@ -86,5 +86,44 @@ TEST(SlowAdaption, ReachesAThinNeck) {
                    {energy, multiplier, 2e-5 * energy, 2e-4 * multiplier});
 }
 
+/// The minimiser on meshes that change, and outer iterations on the last of them.
+test::RelaxationResult minimise_adaptively(const std::string& name,
+                                           std::vector<std::string> overrides = {}) {
+  overrides.emplace_back("solver.method=minimize");
+  auto result = run_adaptively(name, std::move(overrides));
+  EXPECT_FALSE(result.outcome.mesh_changes.empty());
+  const long last_change = result.outcome.mesh_changes.back().step;
+  EXPECT_LE(result.counts().steps - last_change, 15);
+  EXPECT_NE(result.outcome.reason.find("a minimum"), std::string::npos) << result.outcome.reason;
+  return result;
+}
+
+TEST(AdaptiveMinimisation, ReachesTable1) {
+  const auto result = minimise_adaptively("cigar_dumbbell");
+  expect_reference(result, {test::table_1_energy, test::table_1_volume_multiplier, 8e-4, 2e-3});
+  EXPECT_EQ(result.state.time, static_cast<double>(result.counts().steps));
+}
+
+TEST(SlowAdaptiveMinimisation, ReachesHighLineTension) {
+  const double energy = 116.842137;
+  const double multiplier = -124.295708;
+  expect_reference(minimise_adaptively("line_tension"),
+                   {energy, multiplier, 3e-6 * energy, 2e-4 * -multiplier});
+}
+
+TEST(SlowAdaptiveMinimisation, ReachesAThinNeck) {
+  const double energy = 56.579056;
+  const double multiplier = 18.933753;
+  expect_reference(minimise_adaptively("neck"),
+                   {energy, multiplier, 4e-6 * energy, 2e-4 * multiplier});
+}
+
+TEST(SlowAdaptiveMinimisation, ReachesGaussianRigiditiesThatDiffer) {
+  const double energy = 138.025586;
+  const double multiplier = -137.844528;
+  expect_reference(minimise_adaptively("gaussian_rigidity"),
+                   {energy, multiplier, 5e-6 * energy, 2e-4 * -multiplier});
+}
+
 }  // namespace
 }  // namespace vesica

@@ -75,6 +75,7 @@ struct SolverOptions {
   LinearSolver linear_solver = LinearSolver::automatic;
   bool final_constraint_solve = true;
   bool polish = false;
+  bool leave_saddles = true;
   int threads = 0;
 
   template <class Self, class Visitor>
@@ -140,6 +141,10 @@ struct SolverOptions {
           self.final_constraint_solve);
     visit(Field{"polish", "-", "at the end, Newton's method on the equations of the equilibrium"},
           self.polish);
+    visit(Field{"leave_saddles", "-",
+                "from a saddle of the energy, go on along its lowest mode; false: end there",
+                Rule::any, Users(minimize)},
+          self.leave_saddles);
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }

@@ -97,7 +97,9 @@ struct StepReport {
   SolverCounts counts;  ///< totals after the step
   SolverSeconds seconds;
   std::optional<PolishReport> polish;  ///< after a finish() that polished
-  std::string reason;                  ///< for a failed step: call, code by name, and what to try
+  /// Of a failed step: call, code by name, and what to try. Of a finish: what was found.
+  std::string reason;
+  std::string event;  ///< what happened and is worth a line in the log; empty as a rule
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {

@@ -8,6 +8,7 @@
 #include "relaxation_cases.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/measure/diagnostics.hpp"
+#include "vesica/mesh/quality.hpp"
 
 namespace vesica::minimise {
 namespace {
@@ -104,7 +105,7 @@ TEST(CeresStepper, LeavesAConstraintFreeThatHasNoTarget) {
 TEST(CeresStepper, FinishTakesTheConstraintsToRoundOff) {
   const auto c = test::table_1_case(2);
   const auto stepper = run::make_stepper(minimize(), c.model, c.start);
-  for (int step = 0; step < 4; ++step) (void)stepper->step(infinity);
+  for (int step = 0; step < 2; ++step) (void)stepper->step(infinity);
   const auto before = measure::measure(c.model, stepper->state());
   ASSERT_GT(std::abs(*before.constraint_errors.of<model::Volume>()), 1e-9);
   ASSERT_EQ(stepper->finish().status, solve::StepStatus::accepted);
@@ -129,6 +130,48 @@ TEST(CeresStepper, FinishPolishesWhenAskedTo) {
   EXPECT_LT(*report.gradient, 1e-7);
 }
 
+TEST(CeresStepper, NewtonsMethodTakesItToRoundOffInFewSteps) {
+  const auto c = test::table_1_case(2);
+  const auto stepper = run::make_stepper(minimize(), c.model, c.start);
+  double distance = 1;
+  for (int step = 0; step < 20 && distance > 1e-2; ++step)
+    distance = *stepper->step(infinity).gradient;
+  for (int step = 0; step < 3; ++step) {
+    const auto report = stepper->step(infinity);
+    ASSERT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+    EXPECT_LT(*report.gradient, 0.05 * distance);
+    distance = *report.gradient;
+  }
+  const auto measured = measure::measure(c.model, stepper->state());
+  EXPECT_LT(std::abs(*measured.constraint_errors.of<model::Volume>()), 1e-9);
+}
+
+/// At v = 0.8 the oblate spheroid is a saddle, and the prolate the minimum.
+test::RelaxationCase oblate_case() {
+  return test::single_phase_case(test::make_ellipsoid({1.25, 1.25, 0.55}, 3), 0.8 * 4 * pi / 3,
+                                 4 * pi);
+}
+
+TEST(CeresStepper, LeavesASaddleAndSaysSo) {
+  const auto result = test::run_case(oblate_case(), minimize());
+  ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_NEAR(result.energy(), 34.870, 0.02);
+  EXPECT_NE(result.outcome.reason.find("a minimum"), std::string::npos) << result.outcome.reason;
+  ASSERT_GE(result.outcome.events.size(), 1U);
+  EXPECT_TRUE(result.outcome.events.front().what.starts_with("left a saddle of energy 36."))
+      << result.outcome.events.front().what;
+}
+
+TEST(CeresStepper, EndsAtASaddleWhenAskedToAndSaysSo) {
+  auto options = minimize();
+  options.leave_saddles = false;
+  const auto result = test::run_case(oblate_case(), options);
+  ASSERT_EQ(result.outcome.status, relax::RunStatus::converged) << result.outcome.reason;
+  EXPECT_GT(result.energy(), 35);
+  EXPECT_NE(result.outcome.reason.find("a saddle"), std::string::npos) << result.outcome.reason;
+  EXPECT_TRUE(result.outcome.events.empty());
+}
+
 TEST(CeresStepper, DampingChangesNothing) {
   const auto c = test::table_1_case(2);
   const auto one = run::make_stepper(minimize(), c.model, c.start);
@@ -148,6 +191,22 @@ TEST(CeresStepper, SaysThatConstraintsCannotBeMetAndKeepsAGoodState) {
       << result.outcome.reason;
   EXPECT_GT(result.outcome.diagnostics.quality, 0.1);
   EXPECT_TRUE(result.state.values.positions.allFinite());
+}
+
+TEST(CeresStepper, ARestartedOneCountsOnAndLeavesTheNodesToItsCaller) {
+  // crowded nodes, which a stepper that looks after its mesh would move along the surface
+  auto c = prolate_case(3.35);
+  auto& x = c.start.values.positions;
+  for (auto row : x.rowwise()) row[0] += 0.3 * (1.84 * 1.84 - row[0] * row[0]);
+  c.start.time = 7;
+  const auto spread_after_a_step = [](solve::Stepper& stepper) {
+    EXPECT_EQ(stepper.step(infinity).status, solve::StepStatus::accepted);
+    return mesh::area_ratio(*stepper.state().triangulation, stepper.state().values.positions);
+  };
+  const auto first = run::make_stepper(minimize(), c.model, c.start);
+  const auto restarted = run::restart_stepper(minimize(), c.model, c.start, {});
+  EXPECT_GT(spread_after_a_step(*restarted), 1.5 * spread_after_a_step(*first));
+  EXPECT_EQ(restarted->state().time, 8);
 }
 
 TEST(CeresStepper, RefusesARampedTarget) {

@@ -6,6 +6,7 @@
 
 #include "block_matrices.hpp"
 #include "minimise/augmented_energy.hpp"
+#include "minimise/tangent_newton.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::minimise {
@@ -212,6 +213,49 @@ TEST(EnergyMetric, SpreadIsTheAdjointOfGather) {
   const auto g = random_vector(metric.size(), engine);
   const Eigen::VectorXd u = metric.spread(z);
   EXPECT_NEAR(u.dot(g), metric.gather(g).dot(z), 1e-12 * u.norm() * g.norm());
+}
+
+TEST_F(MinimiserVariables, SecondDerivativeIsThatOfTheReducedLagrangian) {
+  const Eigen::Vector3d multipliers(3, -2, 1);
+  const ReducedHessian hessian(problem_, start_.sample.fields, constraints_.all(multipliers),
+                               graph_, 1);
+  const Eigen::VectorXd u = random_vector(metric_.size(), engine_);
+  const auto gradient_at = [&](double step) {
+    const Eigen::VectorXd there = start_.unknowns + step * u;
+    const auto sample =
+        sample_energy(problem_, positions_of(graph_, there), order_parameter_of(graph_, there));
+    return constraints_.lagrangian_gradient(graph_, sample, multipliers, true);
+  };
+  const double step = 1e-5;
+  const Eigen::VectorXd difference = (gradient_at(step) - gradient_at(-step)) / (2 * step);
+  const Eigen::VectorXd product = hessian.times(u);
+  const auto n = graph_.reference.rows();
+  ASSERT_GT(product.head(n).norm(), 1);
+  ASSERT_GT(product.tail(n).norm(), 1);
+  EXPECT_LT((product - difference).head(n).norm(), 1e-6 * product.head(n).norm());
+  EXPECT_LT((product - difference).tail(n).norm(), 1e-6 * product.tail(n).norm());
+}
+
+TEST_F(MinimiserVariables, LowestEigenvalueIsThatOfTheDenseMatrixOnTheTangentSpace) {
+  const Eigen::Vector3d multipliers(3, -2, 1);
+  const Slopes slopes{Eigen::VectorXd::Zero(metric_.size()), constraint_slopes()};
+  const ReducedHessian hessian(problem_, start_.sample.fields, constraints_.all(multipliers),
+                               graph_, 1);
+  const TangentHessian tangent(hessian, coordinates_, slopes);
+  Eigen::MatrixXd dense(metric_.size(), metric_.size());
+  const Eigen::MatrixXd basis = orthonormal_basis(slopes.constraints);
+  for (Eigen::Index k = 0; k < dense.cols(); ++k) {
+    Eigen::VectorXd z = coordinates_.without_rigid(Eigen::VectorXd::Unit(dense.cols(), k));
+    z -= basis * (basis.transpose() * z);
+    dense.col(k) = coordinates_.slope(hessian.times(coordinates_.spread(z)));
+    dense.col(k) -= basis * (basis.transpose() * dense.col(k));
+  }
+  EXPECT_LT((dense - dense.transpose()).norm(), 1e-10 * dense.norm());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense);
+  ASSERT_LT(eigen.eigenvalues()[0], -0.1);
+  const auto lowest = tangent.lowest();
+  EXPECT_NEAR(lowest.value, eigen.eigenvalues()[0], 1e-2 * std::abs(lowest.value));
+  EXPECT_NEAR(lowest.vector.dot(dense * lowest.vector), lowest.value, 1e-8);
 }
 
 }  // namespace
