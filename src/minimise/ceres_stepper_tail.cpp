@@ -21,7 +21,7 @@ constexpr double retry_distance = 0.3;       // of the distance at which a step 
 constexpr double largest_step = 0.15;        // max|d|, in R_c
 constexpr double largest_kept_move = 5e-3;   // the same, after which the reference is kept
 
-constexpr double marginal = 1e-3;       // modulus of a lowest eigenvalue whose sign means nothing
+constexpr double marginal = 2e-4;       // modulus of a lowest eigenvalue whose sign means nothing
 constexpr double at_saddle = 1e-3;      // distance below which a way down is worth a line
 constexpr double leaving_move = 0.1;    // max|d| along the lowest mode, in R_c, at most
 constexpr double leaving_change = 0.4;  // max|c| along it, at most
@@ -47,15 +47,19 @@ bool CeresStepper::try_newton() {
   newton_distance_ = retry_distance * distance();  // unless it works
   const ReducedHessian second = hessian();
   const TangentHessian tangent(second, *coordinates_, slopes_);
-  NewtonStep step;
-  {
+  const auto step = [&](bool passes_saddles) {
     const ScopedTimer timer(seconds_.solve);
-    step = tangent.step(multipliers_, constraints_.errors(point_.sample.constraints),
-                        residual_reduction, !options_.leave_saddles);
-  }
-  counts_.krylov += step.products;
-  const bool goes_down = step.meets_saddle && options_.leave_saddles;
-  if (!(goes_down ? go_down(tangent.lowest()) : take_newton_step(step.change))) return false;
+    auto result = tangent.step(multipliers_, constraints_.errors(point_.sample.constraints),
+                               residual_reduction, passes_saddles);
+    counts_.krylov += result.products;
+    return result;
+  };
+  const NewtonStep first = step(!options_.leave_saddles);
+  const bool meets_saddle = first.meets_saddle && options_.leave_saddles;
+  // a curvature that is next to nothing is no way down: to the equilibrium, whose kind is found then
+  if (!(meets_saddle && go_down(tangent.lowest())) &&
+      !take_newton_step(meets_saddle ? step(true).change : first.change))
+    return false;
   newton_distance_ = near_minimum;
   ++counts_.steps;
   store();

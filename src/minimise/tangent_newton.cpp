@@ -5,7 +5,7 @@ namespace vesica::minimise {
 namespace {
 
 constexpr int max_products = 200;
-constexpr double resolution = 1e-2;  // of the lowest eigenvalue
+constexpr double resolution = 1e-3;  // of the lowest eigenvalue
 
 }  // namespace
 

@@ -12,7 +12,8 @@ namespace vesica::solve {
 namespace {
 
 constexpr Eigen::Index min_dimension = 20;  // a start poor in the lowest mode may settle before
-constexpr Eigen::Index max_dimension = 120;
+constexpr Eigen::Index max_dimension = 240;
+constexpr Eigen::Index dimensions_between_looks = 10;
 constexpr double relative_error = 0.1;
 
 struct Operator {
@@ -41,7 +42,7 @@ Eigenpair lowest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::Vec
   Eigen::Index products = 0;
   krylov.init(start_view, products);
   Eigenpair result;
-  for (Eigen::Index dimension = 1;; ++dimension) {
+  for (Eigen::Index dimension = 1;;) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
         krylov.matrix_H().topLeftCorner(dimension, dimension));
     result.value = eigen.eigenvalues()[0];
@@ -52,7 +53,9 @@ Eigenpair lowest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::Vec
       result.products = static_cast<int>(products);
       return result;
     }
-    krylov.factorize_from(dimension, dimension + 1, products);
+    const auto next = std::min(last, dimension + dimensions_between_looks);
+    krylov.factorize_from(dimension, next, products);
+    dimension = next;
   }
 }
 

@@ -15,7 +15,7 @@ struct Eigenpair {
 
 /// Finds the lowest eigenvalue of a symmetric operator by Lanczos' method from a random vector.
 /// Ends when the error is below a tenth of the modulus, or of `resolution` where that is more, or
-/// at 120 vectors: the sign is wanted rather than the digits.
+/// at 240 vectors: the sign is wanted rather than the digits.
 [[nodiscard]] Eigenpair lowest_eigenvalue(
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& product, Eigen::Index size,
     double resolution);
