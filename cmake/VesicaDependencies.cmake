@@ -46,6 +46,10 @@ target_link_libraries(
             SUNDIALS::sunlinsolspgmr
             Ceres::ceres
             HDF5::HDF5)
+if(VESICA_WITH_MUMPS)
+  find_package(MUMPS REQUIRED)
+  target_link_libraries(vesica_private INTERFACE MUMPS::single)
+endif()
 foreach(component IN LISTS suitesparse_components)
   target_link_libraries(vesica_private INTERFACE SuiteSparse::${component})
 endforeach()

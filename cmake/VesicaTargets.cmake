@@ -15,6 +15,9 @@ target_compile_definitions(vesica PUBLIC EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STAT
 if(NOT VESICA_WITH_UMFPACK)
   target_compile_definitions(vesica PUBLIC VESICA_WITHOUT_UMFPACK)
 endif()
+if(NOT VESICA_WITH_MUMPS)
+  target_compile_definitions(vesica PUBLIC VESICA_WITHOUT_MUMPS)
+endif()
 
 # Only names in namespace vesica leave the library, and it calls its own copies of them: instances of Eigen and
 # standard templates compiled for this processor never mix with the consumer's.

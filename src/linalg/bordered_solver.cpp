@@ -38,7 +38,10 @@ void BorderedSolver::factorise(const BorderedMatrix& matrix) {
   rows_ = matrix.rows;
   solved_columns_.resize(matrix.columns.rows(), matrix.columns.cols());
   for (Eigen::Index k = 0; k < matrix.columns.cols(); ++k) {
-    solved_columns_.col(k) = solve_block(matrix.columns.col(k));
+    const Eigen::VectorXd column = matrix.columns.col(k);
+    Eigen::VectorXd solved(column.size());
+    direct_->solve(view(column), view(solved));
+    solved_columns_.col(k) = solved;
   }
   Eigen::MatrixXd schur = rows_ * solved_columns_;
   if (matrix.corner.size() > 0) schur -= matrix.corner;
@@ -50,18 +53,24 @@ void BorderedSolver::factorise(const BorderedMatrix& matrix) {
 }
 
 Eigen::VectorXd BorderedSolver::solve(const Eigen::VectorXd& b) const {
-  const auto n = solved_columns_.rows();
-  const auto m = solved_columns_.cols();
-  Eigen::VectorXd x(n + m);
-  const Eigen::VectorXd head = solve_block(b.head(n));
-  x.tail(m) = m > 0 ? Eigen::VectorXd(schur_.solve(rows_ * head - b.tail(m))) : Eigen::VectorXd();
-  x.head(n) = head - solved_columns_ * x.tail(m);
-  return x;
+  const Eigen::VectorXd head = b.head(solved_columns_.rows());
+  Eigen::VectorXd x(head.size());
+  direct_->solve(view(head), view(x));
+  return join(x, b);
 }
 
-Eigen::VectorXd BorderedSolver::solve_block(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x(b.size());
-  direct_->solve(view(b), view(x));
+Eigen::VectorXd BorderedSolver::precondition(const Eigen::VectorXd& b) const {
+  const Eigen::VectorXd head = b.head(solved_columns_.rows());
+  Eigen::VectorXd x(head.size());
+  direct_->precondition(view(head), view(x));
+  return join(x, b);
+}
+
+Eigen::VectorXd BorderedSolver::join(const Eigen::VectorXd& head, const Eigen::VectorXd& b) const {
+  const auto m = solved_columns_.cols();
+  Eigen::VectorXd x(head.size() + m);
+  x.tail(m) = m > 0 ? Eigen::VectorXd(schur_.solve(rows_ * head - b.tail(m))) : Eigen::VectorXd();
+  x.head(head.size()) = head - solved_columns_ * x.tail(m);
   return x;
 }
 

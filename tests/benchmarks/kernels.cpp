@@ -101,7 +101,7 @@ std::vector<DirectSolverKind> kinds() {
 #ifdef VESICA_WITHOUT_UMFPACK
   return {DirectSolverKind::klu};
 #else
-  return {DirectSolverKind::umfpack, DirectSolverKind::klu};
+  return {DirectSolverKind::umfpack, DirectSolverKind::mumps};
 #endif
 }
 

@@ -35,9 +35,12 @@ class BorderedSolver {
   void factorise(const BorderedMatrix& matrix);
   /// Returns x = A^-1 b, both of length n + m.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// Returns A^-1 b to some five digits at least, as DirectSolver::precondition.
+  [[nodiscard]] Eigen::VectorXd precondition(const Eigen::VectorXd& b) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd solve_block(const Eigen::VectorXd& b) const;
+  /// Returns A^-1 b from K^-1 of its head.
+  [[nodiscard]] Eigen::VectorXd join(const Eigen::VectorXd& head, const Eigen::VectorXd& b) const;
 
   std::unique_ptr<DirectSolver> direct_;
   Eigen::MatrixXd rows_;

@@ -11,8 +11,8 @@
 
 namespace vesica::linalg {
 
-/// Library that factorises the sparse matrices.
-enum class DirectSolverKind { umfpack, klu };
+/// Library that factorises the sparse matrices. MUMPS keeps factors in single precision.
+enum class DirectSolverKind { umfpack, klu, mumps };
 
 #ifdef VESICA_WITHOUT_UMFPACK
 inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::klu;
@@ -33,8 +33,10 @@ class DirectSolver {
   /// RecoverableError when the matrix is singular or holds a NaN, SolverError when the library
   /// refuses.
   virtual void factorise(const SparseMatrix& matrix) = 0;
-  /// Solves A x = b with the last factors; `b` and `x` may not overlap.
+  /// Solves A x = b to round-off with the last factors; `b` and `x` may not overlap.
   virtual void solve(std::span<const double> b, std::span<double> x) const = 0;
+  /// Solves A x = b to some five digits at least, for a preconditioner; exact where factors are.
+  virtual void precondition(std::span<const double> b, std::span<double> x) const { solve(b, x); }
 };
 
 /// Makes a solver for the pattern of `matrix`, whose unknowns come in groups of `block_size` that
@@ -49,7 +51,9 @@ class DirectSolver {
 namespace vesica {
 template <>
 struct EnumNames<linalg::DirectSolverKind> {
-  static constexpr std::array<std::pair<linalg::DirectSolverKind, std::string_view>, 2> names{
-      {{linalg::DirectSolverKind::umfpack, "umfpack"}, {linalg::DirectSolverKind::klu, "klu"}}};
+  static constexpr std::array<std::pair<linalg::DirectSolverKind, std::string_view>, 3> names{
+      {{linalg::DirectSolverKind::umfpack, "umfpack"},
+       {linalg::DirectSolverKind::klu, "klu"},
+       {linalg::DirectSolverKind::mumps, "mumps"}}};
 };
 }  // namespace vesica

@@ -122,5 +122,28 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DirectSolverTest,
                          name_of_kind);
 #endif
 
+#ifndef VESICA_WITHOUT_MUMPS
+INSTANTIATE_TEST_SUITE_P(Mumps, DirectSolverTest, ::testing::Values(DirectSolverKind::mumps),
+                         name_of_kind);
+
+/// Values of any size: single precision ends at 1e38, and its smallest numbers are lost.
+TEST(MumpsSolver, PreconditionsToFiveDigitsInAnyUnit) {
+  std::mt19937 engine(6);
+  for (const double unit : {1e-60, 1.0, 1e60}) {
+    auto matrix = random_block_matrix(5, engine);
+    for (double& value : matrix.values) value *= unit;
+    const auto solver = make_direct_solver(DirectSolverKind::mumps, matrix, 5);
+    solver->factorise(matrix);
+    const Eigen::VectorXd b = 1e50 * random_vector(matrix.size, engine);
+    Eigen::VectorXd x(matrix.size);
+    Eigen::VectorXd product(matrix.size);
+    solver->precondition(view(b), view(x));
+    matrix.multiply(view(x), view(product));
+    EXPECT_LT((product - b).norm(), 1e-5 * b.norm());
+    EXPECT_GT((product - b).norm(), 1e-12 * b.norm());  // single precision, as promised
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace vesica::linalg
