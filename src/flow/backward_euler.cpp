@@ -66,7 +66,7 @@ struct Equations {
       self.residual = self.residual_at(self.y);
       if (self.system.has_products())
         self.system.linearise(self.settings, self.step.time, self.y, self.step.rates(self.y));
-      view(result) = self.system.solve(self.residual);
+      view(result) = self.system.precondition(self.residual);
       return 0;
     });
   }
@@ -75,13 +75,13 @@ struct Equations {
     return guarded(data, [&](Equations& self) {
       if (self.system.has_products()) {
         view(product) =
-            self.system.solve(self.system.product({1, 1 / self.step.step_size}, view(x)));
+            self.system.precondition(self.system.product({1, 1 / self.step.step_size}, view(x)));
         return 0;
       }
       const double length = self.norm(view(x));
       const double sigma = length > 0 ? difference / length : 1;
       const auto there = self.residual_at(self.y - sigma * view(x));
-      view(product) = self.system.solve((self.residual - there) / sigma);
+      view(product) = self.system.precondition((self.residual - there) / sigma);
       return 0;
     });
   }

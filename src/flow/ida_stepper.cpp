@@ -39,7 +39,7 @@ solve::NewtonSystem make_system(const solve::SolverOptions& options,
                                 const problem::Scales& scales) {
   if (options.is_preconditioned())
     return {dynamic_cast<const problem::ReducedProblem&>(problem), scales};
-  return {dynamic_cast<const problem::AssembledProblem&>(problem), options.direct_solver()};
+  return {dynamic_cast<const problem::AssembledProblem&>(problem), options.flow_solver()};
 }
 
 }  // namespace

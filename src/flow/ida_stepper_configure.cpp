@@ -62,7 +62,8 @@ struct IdaStepper::Callbacks {
 
   static int solve_preconditioner(realtype, N_Vector, N_Vector, N_Vector, N_Vector b, N_Vector x,
                                   realtype, realtype, void* user_data) {
-    return guarded(user_data, [&](IdaStepper& self) { view(x) = self.system_.solve(view(b)); });
+    return guarded(user_data,
+                   [&](IdaStepper& self) { view(x) = self.system_.precondition(view(b)); });
   }
 
   static int set_up_product(realtype time, N_Vector y, N_Vector y_rate, N_Vector, realtype,

@@ -100,7 +100,7 @@ double IdaStepper::relative_force(const measure::Diagnostics& measured) const {
 solve::StepReport IdaStepper::polish_weak_form() {
   const auto& model = problem_->model();
   GaugedRelaxation gauged(state_, model, options_.threads);
-  solve::NewtonSystem system(gauged, options_.direct_solver());
+  solve::NewtonSystem system(gauged, options_.flow_solver());
   const Eigen::VectorXd weights = (2 * options_.rtol * gauged.units(scales_)).cwiseInverse();
   problem::State polished = state_;
   Eigen::VectorXd y = gauged.initial_values(state_);

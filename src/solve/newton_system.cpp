@@ -70,6 +70,11 @@ Eigen::VectorXd NewtonSystem::solve(const Eigen::VectorXd& b) {
   return reduced_ ? reduced_->preconditioner.solve(b) : assembled_->solver.solve(b);
 }
 
+Eigen::VectorXd NewtonSystem::precondition(const Eigen::VectorXd& b) {
+  const ScopedTimer timer(seconds_.solve);
+  return reduced_ ? reduced_->preconditioner.solve(b) : assembled_->solver.precondition(b);
+}
+
 Eigen::VectorXd NewtonSystem::solve_accurately(const Eigen::VectorXd& b) {
   const ScopedTimer timer(seconds_.solve);
   const Eigen::VectorXd x = assembled_->solver.solve(b);

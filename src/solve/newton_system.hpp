@@ -29,7 +29,9 @@ class NewtonSystem {
   /// Solves with what was set up last.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b);
 
-  /// The same with one step of iterative refinement, for an assembled Jacobian.
+  /// The same to some five digits at least, which may be faster.
+  [[nodiscard]] Eigen::VectorXd precondition(const Eigen::VectorXd& b);
+  /// Solves with one step of iterative refinement, for an assembled Jacobian.
   [[nodiscard]] Eigen::VectorXd solve_accurately(const Eigen::VectorXd& b);
 
   /// Tells whether the products below are to be had.

@@ -16,9 +16,16 @@ linalg::DirectSolverKind SolverOptions::direct_solver() const {
       return linalg::DirectSolverKind::umfpack;
     case LinearSolver::klu:
       return linalg::DirectSolverKind::klu;
+    case LinearSolver::mumps:
+      return linalg::DirectSolverKind::mumps;
     default:
       return linalg::default_direct_solver;
   }
+}
+
+linalg::DirectSolverKind SolverOptions::flow_solver() const {
+  const bool is_chosen = linear_solver != LinearSolver::automatic || newton == NewtonMode::direct;
+  return is_chosen ? direct_solver() : linalg::default_preconditioner;
 }
 
 void SolverOptions::check_together() const {
@@ -29,12 +36,12 @@ void SolverOptions::check_together() const {
   if (linear_solver == LinearSolver::preconditioned) {
     if (method != Method::ida || scheme != Scheme::variational) {
       refuse("solver.linear_solver", "preconditioned",
-             "must be auto, umfpack or klu but for solver.method = ida with solver.scheme = "
+             "must be auto, umfpack, klu or mumps but for solver.method = ida with solver.scheme = "
              "variational");
     }
     if (newton == NewtonMode::direct) {
       refuse("solver.linear_solver", "preconditioned",
-             "must be auto, umfpack or klu for solver.newton = direct");
+             "must be auto, umfpack, klu or mumps for solver.newton = direct");
     }
   }
   if (method != Method::semi_implicit) return;

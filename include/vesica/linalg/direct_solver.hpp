@@ -19,6 +19,12 @@ inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::klu;
 #else
 inline constexpr DirectSolverKind default_direct_solver = DirectSolverKind::umfpack;
 #endif
+/// The library whose factors are the fastest preconditioner.
+#ifdef VESICA_WITHOUT_MUMPS
+inline constexpr DirectSolverKind default_preconditioner = default_direct_solver;
+#else
+inline constexpr DirectSolverKind default_preconditioner = DirectSolverKind::mumps;
+#endif
 
 /// Sparse LU factorisation. The pattern is analysed once, at construction; one of the five abstract
 /// classes of the library.

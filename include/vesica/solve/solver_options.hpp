@@ -22,7 +22,7 @@ enum class NewtonMode { krylov, direct };
 /// What stands for the inverse of the Jacobian: sparse LU factors, or, for the flow of
 /// Scheme::variational, the preconditioner from Cholesky factors of second-order operators. The
 /// automatic choice is the preconditioner where it can be had.
-enum class LinearSolver { automatic, preconditioned, umfpack, klu };
+enum class LinearSolver { automatic, preconditioned, umfpack, klu, mumps };
 
 }  // namespace vesica::solve
 
@@ -48,11 +48,12 @@ struct EnumNames<solve::NewtonMode> {
 template <>
 struct EnumNames<solve::LinearSolver> {
   using enum solve::LinearSolver;
-  static constexpr std::array<std::pair<solve::LinearSolver, std::string_view>, 4> names{
+  static constexpr std::array<std::pair<solve::LinearSolver, std::string_view>, 5> names{
       {{automatic, "auto"},
        {preconditioned, "preconditioned"},
        {umfpack, "umfpack"},
-       {klu, "klu"}}};
+       {klu, "klu"},
+       {mumps, "mumps"}}};
 };
 }  // namespace vesica
 
@@ -113,8 +114,11 @@ struct SolverOptions {
   }
   /// Tells whether the flow is solved without LU factors, p eliminated.
   [[nodiscard]] bool is_preconditioned() const;
-  /// Returns the library of LU factors where these are needed.
+  /// Returns the library of LU factors where these are needed, exact to round-off.
   [[nodiscard]] linalg::DirectSolverKind direct_solver() const;
+  /// Returns the library of LU factors for Newton's method of a flow: with GMRES they are a
+  /// preconditioner, and single precision is enough.
+  [[nodiscard]] linalg::DirectSolverKind flow_solver() const;
   /// Refuses options that the method cannot carry out. Throws ConfigError.
   void check_together() const;
 
@@ -133,10 +137,12 @@ struct SolverOptions {
     visit(Field{"newton", "-", "krylov (GMRES, factors as preconditioner) or direct", Rule::any,
                 Users(ida)},
           self.newton);
-    visit(Field{"linear_solver", "-",
-                "auto, preconditioned (variational scheme: Cholesky factors of second-order "
-                "operators), or a sparse LU factorisation: umfpack or klu"},
-          self.linear_solver);
+    visit(
+        Field{"linear_solver", "-",
+              "auto, preconditioned (variational scheme: Cholesky factors of second-order "
+              "operators), or a sparse LU factorisation: umfpack, klu or mumps (single precision, "
+              "refined)"},
+        self.linear_solver);
     visit(Field{"final_constraint_solve", "-", "take the constraints to round-off at the end"},
           self.final_constraint_solve);
     visit(Field{"polish", "-", "at the end, Newton's method on the equations of the equilibrium"},

@@ -183,12 +183,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.toml:2:11: adaption.enabled = true: needs solver.method = \"minimize\" or "
                  "\"ida\", not \"semi-implicit\""},
         BadInput{"[solver]\nlinear_solver = 'preconditioned'",
-                 "case.toml:2:17: solver.linear_solver = preconditioned: must be auto, umfpack or "
-                 "klu but for solver.method = ida with solver.scheme = variational"},
+                 "case.toml:2:17: solver.linear_solver = preconditioned: must be auto, umfpack, "
+                 "klu or mumps but for solver.method = ida with solver.scheme = variational"},
         BadInput{"[solver]\nscheme = 'variational'\nnewton = 'direct'\n"
                  "linear_solver = 'preconditioned'",
-                 "case.toml:4:17: solver.linear_solver = preconditioned: must be auto, umfpack or "
-                 "klu for solver.newton = direct"},
+                 "case.toml:4:17: solver.linear_solver = preconditioned: must be auto, umfpack, "
+                 "klu or mumps for solver.newton = direct"},
         BadInput{"[adaption]\nn_kappa = 3",
                  "case.toml:2:11: adaption.n_kappa = 3: means nothing with adaption.method = "
                  "\"local\""},

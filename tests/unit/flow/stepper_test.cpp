@@ -49,7 +49,7 @@ constexpr double end_time = 5e-3;
 constexpr double solver_tolerance = 5e-3;
 
 #ifndef VESICA_WITHOUT_UMFPACK
-TEST(IdaStepper, TakesTheSameTrajectoryWithEitherFactorisation) {
+TEST(IdaStepper, TakesTheSameTrajectoryWithEveryFactorisation) {
   for (const auto newton : {solve::NewtonMode::direct, solve::NewtonMode::krylov}) {
     solve::SolverOptions umfpack;
     umfpack.newton = newton;
@@ -57,6 +57,11 @@ TEST(IdaStepper, TakesTheSameTrajectoryWithEitherFactorisation) {
     solve::SolverOptions klu = umfpack;
     klu.linear_solver = solve::LinearSolver::klu;
     EXPECT_LT(distance_at(end_time, umfpack, klu), solver_tolerance);
+#ifndef VESICA_WITHOUT_MUMPS
+    solve::SolverOptions mumps = umfpack;
+    mumps.linear_solver = solve::LinearSolver::mumps;
+    EXPECT_LT(distance_at(end_time, umfpack, mumps), solver_tolerance);
+#endif
   }
 }
 #endif
