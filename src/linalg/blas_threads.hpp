@@ -11,8 +11,9 @@ void omp_set_max_active_levels(int) __attribute__((weak));
 
 namespace vesica::linalg {
 
-/// Holds OpenBLAS, and loops of OpenMP in this thread, to one thread for its lifetime. The dense blocks inside a sparse factorisation of
-/// a surface are small: threads of the BLAS would spend their time waiting for each other.
+/// Holds OpenBLAS, and loops of OpenMP in this thread, to one thread for its lifetime. The dense
+/// blocks inside a sparse factorisation of a surface are small: threads of the BLAS would spend
+/// their time waiting for each other.
 class SingleThreadedBlas {
  public:
   SingleThreadedBlas() {

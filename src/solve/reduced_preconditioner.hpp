@@ -30,10 +30,13 @@ class ReducedPreconditioner {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:
-  void factorise_bending(const problem::ReducedPoint& point,
-                         const problem::JacobianWeights& weights);
-  void factorise_phase(const problem::ReducedPoint& point, const problem::JacobianWeights& weights);
+  /// Returns T, or the metric, and sets the mass matrix between two of T^-1.
+  [[nodiscard]] linalg::SparseMatrix bending_operator(const problem::ReducedPoint& point,
+                                                      const problem::JacobianWeights& weights);
+  [[nodiscard]] linalg::SparseMatrix phase_operator(const problem::ReducedPoint& point,
+                                                    const problem::JacobianWeights& weights) const;
   [[nodiscard]] Eigen::MatrixXd solve_nodal(const Eigen::MatrixXd& b) const;
+  [[nodiscard]] Eigen::MatrixXd solve_bending(const Eigen::MatrixXd& b) const;
 
   const problem::ReducedProblem& problem_;
   double shift_;  // s
