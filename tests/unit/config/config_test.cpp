@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.toml:2:18: constraints.phase_fraction = 1.5: must be between 0 and 1"},
         BadInput{"[solver]\nlinear_solver = 'umfpak'",
                  "case.toml:2:17: solver.linear_solver = 'umfpak': must be one of \"auto\", "
-                 "\"preconditioned\", \"umfpack\", \"klu\"; did you mean \"umfpack\"?"},
+                 "\"preconditioned\", \"umfpack\", \"klu\", \"mumps\"; did you mean \"umfpack\"?"},
         BadInput{"[phase]\ndirections = [[1, 0]]",
                  "case.toml:2:14: phase.directions = [ [ 1, 0 ] ]: must be an array of arrays of 3 "
                  "numbers"},
