@@ -24,9 +24,10 @@ struct BackwardEulerStep {
 };
 
 /// Solves it by KINSOL's Newton method; linear systems by GMRES on difference quotients of the
-/// residual, exact where the Jacobian holds a surrogate, or on the products of the system, with what
-/// it sets up at the start as preconditioner. Returns y, or nothing when the changes do not become negligible
-/// (WRMS norm below 1e-6) in max_iterations. Throws RecoverableError for a degenerate surface.
+/// residual, exact where the Jacobian holds a surrogate, or on the products of the system, with
+/// what it sets up at the start as preconditioner. Returns y, or nothing when the changes do not
+/// become negligible (WRMS norm below 1e-6) in max_iterations. Throws RecoverableError for a
+/// degenerate surface.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_backward_euler(solve::NewtonSystem& system,
                                                                   const BackwardEulerStep& step);
 

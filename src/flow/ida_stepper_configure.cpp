@@ -19,8 +19,8 @@ struct KrylovSettings {
   double tolerance_factor;
 };
 constexpr KrylovSettings with_factors{10, 0.2};
-// Exact products let Newton's method converge as fast as the linear solves are exact: with 0.05 runs
-// take up to 1.7 times the iterations of Newton's method, and its failures.
+// Exact products let Newton's method converge as fast as the linear solves are exact: with 0.05
+// runs take up to 1.7 times the iterations of Newton's method, and its failures.
 constexpr KrylovSettings with_preconditioner{30, 0.01};
 constexpr double largest_cj_change = 0.8;
 constexpr int max_newton_iterations = 6;

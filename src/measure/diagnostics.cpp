@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "problem/constraint_kernel.hpp"
+#include "problem/energy/constraint_kernel.hpp"
 #include "problem/point_equations.hpp"
 #include "problem/rigid_modes.hpp"
 #include "vesica/fem/surface_integral.hpp"

@@ -27,11 +27,11 @@ constexpr double near_minimum = 1e-2;
 /// mesh is degenerate or whose line search finds nothing is tried again with shorter steps, then
 /// fails.
 ///
-/// There is no time: `State::time` counts outer iterations on from that of the start, so that the frames of a run are apart,
-/// and the rates are the velocity that the gradient flow would have in the state. In the reports,
-/// `newton` counts iterations of L-BFGS, `residuals` evaluations of energy and gradient,
-/// `jacobians` the surfaces whose operators were assembled, `factorisations` those of Cholesky and
-/// `failures` the trial points and inner minimisations that were thrown away.
+/// There is no time: `State::time` counts outer iterations on from that of the start, so that the
+/// frames of a run are apart, and the rates are the velocity that the gradient flow would have in
+/// the state. In the reports, `newton` counts iterations of L-BFGS, `residuals` evaluations of
+/// energy and gradient, `jacobians` the surfaces whose operators were assembled, `factorisations`
+/// those of Cholesky and `failures` the trial points and inner minimisations that were thrown away.
 class CeresStepper final : public solve::Stepper {
  public:
   /// Makes the stepper. Throws ConfigError for a target that changes in time, SolverError for a

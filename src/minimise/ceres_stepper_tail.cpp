@@ -56,7 +56,8 @@ bool CeresStepper::try_newton() {
   };
   const NewtonStep first = step(!options_.leave_saddles);
   const bool meets_saddle = first.meets_saddle && options_.leave_saddles;
-  // a curvature that is next to nothing is no way down: to the equilibrium, whose kind is found then
+  // a curvature that is next to nothing is no way down: to the equilibrium, whose kind is found
+  // then
   if (!(meets_saddle && go_down(tangent.lowest())) &&
       !take_newton_step(meets_saddle ? step(true).change : first.change))
     return false;

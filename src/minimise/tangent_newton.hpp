@@ -16,8 +16,8 @@ struct NewtonStep {
 };
 
 /// The second derivative of the Lagrangian in the variables z of the minimiser, on the tangent
-/// space of the constraints. The metric is made for it: most of its eigenvalues are near 1, whatever
-/// the mesh.
+/// space of the constraints. The metric is made for it: most of its eigenvalues are near 1,
+/// whatever the mesh.
 class TangentHessian {
  public:
   /// Makes the operator. It keeps references to its arguments.

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <vector>
 
-#include "problem/constraint_kernel.hpp"
+#include "problem/energy/constraint_kernel.hpp"
 #include "semi_implicit_kernel.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/paper/semi_implicit_problem.hpp"

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "constraint_kernel.hpp"
 #include "dual_inputs.hpp"
+#include "energy/constraint_kernel.hpp"
 #include "point_equations.hpp"
 #include "vesica/core/dual.hpp"
 #include "vesica/fem/block_assembly.hpp"

@@ -9,7 +9,8 @@
 
 namespace vesica::problem {
 
-/// What belongs to (t, y) and costs something: the moment, and the constraints with their gradients.
+/// What belongs to (t, y) and costs something: the moment, and the constraints with their
+/// gradients.
 struct ReducedPoint {
   double time = 0;
   Eigen::VectorXd y;

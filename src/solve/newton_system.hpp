@@ -14,7 +14,8 @@ namespace vesica::solve {
 
 /// The equations of a flow with their Jacobian and its inverse, with the counts and seconds they
 /// cost. The inverse is exact, by factors of the assembled Jacobian, or the approximate one of a
-/// ReducedProblem, which has products with the exact Jacobian beside it. Patterns are analysed once.
+/// ReducedProblem, which has products with the exact Jacobian beside it. Patterns are analysed
+/// once.
 class NewtonSystem {
  public:
   NewtonSystem(const problem::AssembledProblem& problem, linalg::DirectSolverKind kind);

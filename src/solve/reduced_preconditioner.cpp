@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "linalg/blas_threads.hpp"
-#include "problem/nodal_operator.hpp"
+#include "problem/energy/nodal_operator.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/model/two_phase.hpp"

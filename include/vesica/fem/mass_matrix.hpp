@@ -19,8 +19,8 @@ using MassMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 /// Three values for each node, shape (N, 3).
 using NodalTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Solves M x = b for the three columns of `rhs` at once by conjugate gradients with the diagonal as
-/// preconditioner (condition number about 5, so some 25 iterations for a relative residual of
+/// Solves M x = b for the three columns of `rhs` at once by conjugate gradients with the diagonal
+/// as preconditioner (condition number about 5, so some 25 iterations for a relative residual of
 /// 1e-11), from `guess`, shape (N, 3) or empty: zero. The residual, in the norm of the
 /// preconditioner, falls below `tolerance` times the largest column of `rhs`. Throws
 /// RecoverableError when they do not converge: the surface is degenerate.

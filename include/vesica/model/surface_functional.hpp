@@ -90,8 +90,8 @@ concept HasVariation = requires(const Material& material, const SurfacePoint<dou
   { Term::variation(material, point) } -> std::same_as<Variation<double>>;
 };
 
-/// The curvatures that a surface of quadratic elements has as distributions: inside the elements and
-/// concentrated at their edges (and corners).
+/// The curvatures that a surface of quadratic elements has as distributions: inside the elements
+/// and concentrated at their edges (and corners).
 enum class Curvature { gauss, mean };
 
 /// A term int s(c) K or int s(c) kappa. The discrete functional is sum_i s(c_i) int phi_i dK, with

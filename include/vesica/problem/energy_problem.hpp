@@ -87,13 +87,13 @@ class EnergyProblem {
   /// c' phi.
   [[nodiscard]] EnergyFields gradient(const EnergyFields& fields, const Multipliers& multipliers,
                                       const EnergyRates& rates = {}) const;
-  /// Computes the derivative of dE_h/dp, shape (N, 3), along a change of positions and c at fixed p;
-  /// empty fields do not change.
+  /// Computes the derivative of dE_h/dp, shape (N, 3), along a change of positions and c at fixed
+  /// p; empty fields do not change.
   [[nodiscard]] mesh::Positions moment_change(const EnergyFields& fields,
                                               const EnergyFields& change) const;
   /// Computes the derivative of `gradient` with respect to positions and c along a change of all
-  /// fields and rates: the product of the second derivative with it, without a matrix. The moment of
-  /// the result is empty.
+  /// fields and rates: the product of the second derivative with it, without a matrix. The moment
+  /// of the result is empty.
   [[nodiscard]] EnergyFields gradient_change(const EnergyFields& fields,
                                              const Multipliers& multipliers,
                                              const EnergyRates& rates, const EnergyFields& change,

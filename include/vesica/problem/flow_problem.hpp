@@ -37,8 +37,8 @@ struct Unknowns {
 };
 
 /// Semi-discrete equations F(t, y, y') = 0 of a relaxation flow on one mesh, as IDA integrates
-/// them. y holds the unknowns of the nodes, block_size() a node, then the multipliers. Methods that evaluate throw RecoverableError when an element is degenerate or a
-/// value is not finite.
+/// them. y holds the unknowns of the nodes, block_size() a node, then the multipliers. Methods that
+/// evaluate throw RecoverableError when an element is degenerate or a value is not finite.
 class FlowProblem {
  public:
   FlowProblem() = default;

@@ -270,8 +270,8 @@ INSTANTIATE_TEST_SUITE_P(Forms, RelaxationJacobian,
                                                                          : "differentiated";
                          });
 
-/// kappa = kappa_s in both phases, no line tension, k_g equal, total mean curvature free: every term with Q_h vanishes
-/// together with its derivative.
+/// kappa = kappa_s in both phases, no line tension, k_g equal, total mean curvature free: every
+/// term with Q_h vanishes together with its derivative.
 TEST(RelaxationJacobianWithoutQh, IsExactInEveryBlock) {
   auto model = two_phase_model();
   model.material.spontaneous_curvature = {-1.7, -1.7};

@@ -11,8 +11,8 @@
 namespace vesica::solve {
 namespace {
 
-/// Iterations of GMRES without restart, preconditioned on the left, until the residual has fallen by
-/// `tolerance`.
+/// Iterations of GMRES without restart, preconditioned on the left, until the residual has fallen
+/// by `tolerance`.
 template <class Operator>
 int krylov_iterations(const Operator& apply, const Eigen::VectorXd& b, double tolerance) {
   constexpr int most = 60;

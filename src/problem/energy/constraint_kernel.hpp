@@ -32,8 +32,8 @@ PointFields<T> point_fields(const ElementNodes<T>& nodes, const fem::ShapeValues
 }
 
 /// Calls visit(place, density) for the constraints without curvature that take part at a point. All
-/// discrete functionals are functions of the positions and of c alone, so that (e) can be their exact
-/// derivative; those that look at the curvature are distributional curvatures.
+/// discrete functionals are functions of the positions and of c alone, so that (e) can be their
+/// exact derivative; those that look at the curvature are distributional curvatures.
 template <class T, class Visit>
 void for_each_local_constraint(const model::Physics& physics, const model::LocalPoint<T>& point,
                                const Visit& visit) {
@@ -47,8 +47,8 @@ void for_each_local_constraint(const model::Physics& physics, const model::Local
   });
 }
 
-/// Calls visit.operator()<Constraint>(place) for the constraints that look at the curvature and have
-/// a target. Free ones are left out, because their angles at the edges need the normals.
+/// Calls visit.operator()<Constraint>(place) for the constraints that look at the curvature and
+/// have a target. Free ones are left out, because their angles at the edges need the normals.
 template <class Visit>
 void for_each_curved_constraint(const model::Physics& physics, const Visit& visit) {
   model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
@@ -110,8 +110,8 @@ ConstraintGradients<T> element_constraint_gradients(const ElementNodes<T>& nodes
 }
 
 /// Computes the constrained functionals of a surface, in the order of model::Constraints; those of
-/// `order_parameter` need it, shape (N), and are left at 0 for an empty one. Sums over triangles run
-/// in a fixed order.
+/// `order_parameter` need it, shape (N), and are left at 0 for an empty one. Sums over triangles
+/// run in a fixed order.
 inline std::array<double, model::num_constraints> constraint_values(
     const model::Physics& physics, const mesh::Triangulation& triangulation,
     const mesh::Positions& positions, const Eigen::VectorXd& order_parameter, int threads) {

@@ -1,7 +1,7 @@
 #include <vector>
 
-#include "dual_inputs.hpp"
 #include "energy_element.hpp"
+#include "problem/dual_inputs.hpp"
 #include "vesica/core/parallel.hpp"
 #include "vesica/fem/block_assembly.hpp"
 #include "vesica/problem/energy_problem.hpp"
@@ -191,7 +191,8 @@ CurvaturePoint<CurvatureDual> as_inputs(const CurvaturePoint<double>& values) {
   return in;
 }
 
-/// Adds `factor` times the second derivative of sum_i s(c_i) int phi_i dK (or dkappa) of an element.
+/// Adds `factor` times the second derivative of sum_i s(c_i) int phi_i dK (or dkappa) of an
+/// element.
 template <class Term, int Block>
 void add_curvature_hessian(const ElementContext& context, double factor,
                            const EnergyElement& element, fem::ElementMatrix<Block>& matrix) {

@@ -10,9 +10,9 @@
 
 namespace vesica::problem {
 
-/// Arguments of a distributional curvature of an element at a point: a weight s of the curvature and
-/// the derivatives of the position along (u, v); also the derivative of an integrand with respect to
-/// them.
+/// Arguments of a distributional curvature of an element at a point: a weight s of the curvature
+/// and the derivatives of the position along (u, v); also the derivative of an integrand with
+/// respect to them.
 template <class T>
 struct CurvaturePoint {
   T s{};
@@ -145,10 +145,10 @@ CurvatureIntegrand<T> interior_mean_curvature(const CurvaturePoint<T>& in) {
 }
 
 /// Computes this element's share of the curvature that is concentrated along an edge, -s times the
-/// angle between the two faces, positive where the edge is convex, times the line element. The share
-/// is the angle from the normal of the element to the direction m that both elements have there,
-/// turned about the tangent t towards the outside of the element: atan2(m . (t x n), |t| m . n). The
-/// sum of both does not depend on m, which therefore is not differentiated.
+/// angle between the two faces, positive where the edge is convex, times the line element. The
+/// share is the angle from the normal of the element to the direction m that both elements have
+/// there, turned about the tangent t towards the outside of the element: atan2(m . (t x n), |t| m .
+/// n). The sum of both does not depend on m, which therefore is not differentiated.
 template <class T>
 CurvatureIntegrand<T> edge_angle(const CurvaturePoint<T>& in, const Direction& d) {
   const Vec3<T> n = cross(in.x_u, in.x_v);

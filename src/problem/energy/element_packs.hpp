@@ -54,8 +54,8 @@ void put(Vec3<T>& vector, int lane, const Vec3<double>& value, const Vec3<double
   put(vector.z, lane, value.z, change.z);
 }
 
-/// Returns the fields of the eight elements from the one of number `first` on; lanes beyond the last
-/// one repeat it. With a change, T = PackDual.
+/// Returns the fields of the eight elements from the one of number `first` on; lanes beyond the
+/// last one repeat it. With a change, T = PackDual.
 template <class T>
 ElementFields<T> element_pack(const mesh::Triangulation& triangulation, int first,
                               const EnergyFields& fields, const EnergyRates& rates,
