@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -64,15 +65,19 @@ class CeresStepper final : public solve::Stepper {
   void accept(InnerResult result, const InnerProblem& inner);
   /// Tells whether a Newton step, or one away from a saddle, has been made in place of L-BFGS.
   [[nodiscard]] bool try_newton();
-  [[nodiscard]] bool take_newton_step(const Eigen::VectorXd& change);
+  [[nodiscard]] NewtonStep newton_step(const TangentHessian& tangent);
+  [[nodiscard]] bool take_newton_step(const NewtonStep& step);
+  void adjust_trust(const NewtonStep& step, double scale, double share);
   [[nodiscard]] ReducedHessian hessian();
+  [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& change) const;
   [[nodiscard]] Eigen::VectorXd restored(Eigen::VectorXd unknowns) const;
-  /// Returns a point of lower energy along a change of the unknowns, one way or the other.
-  [[nodiscard]] std::optional<GraphPoint> lower_point(const Eigen::VectorXd& mode);
+  /// Returns a point of lower energy along the lowest mode, one way or the other.
+  [[nodiscard]] std::optional<GraphPoint> lower_point(const solve::Eigenpair& lowest);
   /// Moves to lower energy along the lowest mode; false when that does not curve downwards.
   [[nodiscard]] bool go_down(const solve::Eigenpair& lowest);
   /// Returns what kind of equilibrium the state is; empty when it is a saddle that has been left.
   [[nodiscard]] std::string find_kind();
+  [[nodiscard]] double lagrangian(const EnergySample& sample) const;
   /// Returns the size of what is missing from the equilibrium, constraints included, in k_1^(1/2).
   [[nodiscard]] double missing() const;
   void care_for_mesh();
@@ -116,9 +121,12 @@ class CeresStepper final : public solve::Stepper {
   bool keeps_reference_ = false;   // near the end
   double reference_quality_ = 0;
   double trial_step_ = 1;
-  int stalls_ = 0;          // steps in a row that gained next to nothing
-  double newton_distance_;  // Newton's method below it
-  std::string event_;       // of the next report
+  int stalls_ = 0;             // steps in a row that gained next to nothing
+  double newton_distance_;     // Newton's method below it
+  double trust_radius_ = 0.3;  // of a Newton step in z, in k_1^(1/2)
+  bool is_leaving_ = false;    // a saddle
+  double left_energy_ = std::numeric_limits<double>::infinity();  // of the last saddle
+  std::string event_;                                             // of the next report
   solve::SolverCounts counts_;
   solve::SolverSeconds seconds_;
 };

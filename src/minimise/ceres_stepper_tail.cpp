@@ -1,10 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 #include "ceres_stepper.hpp"
 #include "solve/newton_system.hpp"
@@ -18,15 +14,19 @@ namespace {
 constexpr double residual_reduction = 1e-2;  // in a Newton step
 constexpr double needed_reduction = 0.5;     // of what is missing, by a step that is taken
 constexpr double retry_distance = 0.3;       // of the distance at which a step was no use
-constexpr double largest_step = 0.15;        // max|d|, in R_c
-constexpr double largest_kept_move = 5e-3;   // the same, after which the reference is kept
+constexpr double largest_rise = 1.5;        // of the distance, by the next renewal of the reference
+constexpr double largest_step = 0.15;       // max|d|, in R_c
+constexpr double largest_kept_move = 5e-3;  // the same, after which the reference is kept
+constexpr double at_saddle = 1e-3;          // distance below which a way down is worth a line
 
-constexpr double marginal = 2e-4;       // modulus of a lowest eigenvalue whose sign means nothing
-constexpr double at_saddle = 1e-3;      // distance below which a way down is worth a line
-constexpr double leaving_move = 0.1;    // max|d| along the lowest mode, in R_c, at most
-constexpr double leaving_change = 0.4;  // max|c| along it, at most
-constexpr int max_halvings = 8;
-constexpr int restorations = 2;
+// Trust region, by the share of the promised decrease of the Lagrangian that came about.
+constexpr int max_attempts = 4;
+constexpr double needed_share = 0.1;
+constexpr double poor_share = 0.25;
+constexpr double good_share = 0.7;
+constexpr double shorter = 0.25;
+constexpr double longer = 2;
+constexpr double rounding = 1e-12;  // of the energy: a promise below it cannot be checked
 
 }  // namespace
 
@@ -47,44 +47,67 @@ bool CeresStepper::try_newton() {
   newton_distance_ = retry_distance * distance();  // unless it works
   const ReducedHessian second = hessian();
   const TangentHessian tangent(second, *coordinates_, slopes_);
-  const auto step = [&](bool passes_saddles) {
-    const ScopedTimer timer(seconds_.solve);
-    auto result = tangent.step(multipliers_, constraints_.errors(point_.sample.constraints),
-                               residual_reduction, passes_saddles);
-    counts_.krylov += result.products;
-    return result;
-  };
-  const NewtonStep first = step(!options_.leave_saddles);
-  const bool meets_saddle = first.meets_saddle && options_.leave_saddles;
-  // a curvature that is next to nothing is no way down: to the equilibrium, whose kind is found
-  // then
-  if (!(meets_saddle && go_down(tangent.lowest())) &&
-      !take_newton_step(meets_saddle ? step(true).change : first.change))
-    return false;
-  newton_distance_ = near_minimum;
+  bool is_taken = false;
+  for (int attempt = 0; attempt < max_attempts && !is_taken; ++attempt) {
+    const NewtonStep step = newton_step(tangent);
+    if (!step.meets_saddle) {
+      is_leaving_ = false;
+    } else if (options_.leave_saddles && !is_leaving_ && distance() < at_saddle) {
+      is_leaving_ = true;
+      is_taken = go_down(tangent.lowest());
+      if (is_taken) break;
+    }
+    is_taken = take_newton_step(step);
+    const double promise = std::abs(step.promise(1));
+    if (!options_.leave_saddles || promise < rounding * std::abs(point_.sample.energy.total()))
+      break;
+  }
+  if (!is_taken) return false;
+  newton_distance_ = std::max(near_minimum, largest_rise * distance());  // goes on while it works
   ++counts_.steps;
   store();
   return true;
 }
 
-bool CeresStepper::take_newton_step(const Eigen::VectorXd& change) {
+NewtonStep CeresStepper::newton_step(const TangentHessian& tangent) {
+  const ScopedTimer timer(seconds_.solve);
+  const double radius = trust_radius_ * std::sqrt(scales_.energy);
+  auto step =
+      tangent.step(multipliers_, constraints_.errors(point_.sample.constraints), residual_reduction,
+                   options_.leave_saddles ? std::optional(radius) : std::nullopt);
+  counts_.krylov += step.products;
+  return step;
+}
+
+double CeresStepper::lagrangian(const EnergySample& sample) const {
+  return sample.energy.total() + multipliers_.dot(constraints_.errors(sample.constraints));
+}
+
+/// A step is good that halves what is missing, or lowers the Lagrangian as promised, constraints
+/// met. (Multipliers of least squares: the Lagrangian has no slope along what `restored` changes.)
+bool CeresStepper::take_newton_step(const NewtonStep& step) {
   const double missing_before = missing();
+  const double before_value = lagrangian(point_.sample);
   const std::tuple before{point_, slopes_, multipliers_};
-  const Eigen::VectorXd move = coordinates_->spread(change);
-  bool is_better = move_of(move) < largest_step;
-  if (is_better) {
-    try {
-      const Eigen::VectorXd unknowns = point_.unknowns + move;
-      sample_at(positions_of(graph_, unknowns), order_parameter_of(graph_, unknowns));
-      point_.unknowns = unknowns;
-      linearise();
-      is_better =
-          missing() < needed_reduction * missing_before &&
-          !mesh_care_.is_degenerate(mesh_condition(surface(point_.sample.fields.positions)));
-    } catch (const RecoverableError&) {
-      is_better = false;
-    }
+  const double move = move_of(coordinates_->spread(step.along));
+  const double scale = std::min(1.0, largest_step / move);
+  bool is_better = false;
+  double share = 0;
+  try {
+    const Eigen::VectorXd unknowns =
+        restored(moved(coordinates_->spread(step.across + scale * step.along)));
+    sample_at(positions_of(graph_, unknowns), order_parameter_of(graph_, unknowns));
+    point_.unknowns = unknowns;
+    share = (lagrangian(point_.sample) - before_value) / step.promise(scale);
+    linearise();
+    const bool is_lower = step.promise(scale) < 0 && share > needed_share;
+    const bool is_halved = !step.is_bounded && missing() < needed_reduction * missing_before;
+    is_better = (is_lower || is_halved) &&
+                !mesh_care_.is_degenerate(mesh_condition(surface(point_.sample.fields.positions)));
+  } catch (const RecoverableError&) {
+    share = 0;
   }
+  adjust_trust(step, scale, is_better ? share : 0);
   if (!is_better) {
     std::tie(point_, slopes_, multipliers_) = before;
     return false;
@@ -95,87 +118,11 @@ bool CeresStepper::take_newton_step(const Eigen::VectorXd& change) {
   return true;
 }
 
-/// The point with the constraints met, to second order.
-Eigen::VectorXd CeresStepper::restored(Eigen::VectorXd unknowns) const {
-  for (int iteration = 0; iteration < restorations; ++iteration) {
-    const auto constraints =
-        problem_.constraints(positions_of(graph_, unknowns), order_parameter_of(graph_, unknowns));
-    unknowns -= coordinates_->spread(slopes_.change_for(constraints_.errors(constraints)));
-  }
-  return unknowns;
-}
-
-std::optional<GraphPoint> CeresStepper::lower_point(const Eigen::VectorXd& mode) {
-  double length = leaving_move / move_of(mode);
-  if (is_two_phase()) {
-    const auto n = graph_.reference.rows();
-    length = std::min(length, leaving_change / mode.tail(n).lpNorm<Eigen::Infinity>());
-  }
-  const auto value_of = [this](const EnergySample& sample) {
-    return sample.energy.total() + multipliers_.dot(constraints_.errors(sample.constraints));
-  };
-  double value = value_of(point_.sample);
-  std::optional<GraphPoint> lower;
-  const auto look = [&](double along) {
-    ++counts_.residuals;
-    try {
-      const Eigen::VectorXd unknowns = restored(point_.unknowns + along * mode);
-      auto sample = sample_energy(problem_, positions_of(graph_, unknowns),
-                                  order_parameter_of(graph_, unknowns));
-      if (!(value_of(sample) < value)) return;
-      value = value_of(sample);
-      lower = GraphPoint{unknowns, std::move(sample)};
-    } catch (const RecoverableError&) {
-      // too far for the mesh: half as far
-    }
-  };
-  for (int halving = 0; halving < max_halvings && !lower; ++halving, length /= 2) {
-    look(length);
-    look(-length);
-  }
-  return lower;
-}
-
-bool CeresStepper::go_down(const solve::Eigenpair& lowest) {
-  counts_.krylov += lowest.products;
-  if (lowest.value > -marginal) return false;
-  auto lower = lower_point(coordinates_->spread(lowest.vector));
-  if (!lower) return false;
-  if (distance() < at_saddle) {
-    event_ = fmt::format(
-        "left a saddle of energy {:.7g} along its lowest mode, of relative curvature {:.2g}",
-        point_.sample.energy.total(), lowest.value);
-  }
-  point_ = std::move(*lower);
-  linearise();
-  next_multipliers_ = multipliers_;
-  is_reference_old_ = true;
-  keeps_reference_ = false;
-  stalls_ = 0;
-  return true;
-}
-
-std::string CeresStepper::find_kind() {
-  const ScopedTimer timer(seconds_.total);
-  try {
-    if (is_reference_old_) renew_reference();
-    const ReducedHessian second = hessian();
-    const auto lowest = TangentHessian(second, *coordinates_, slopes_).lowest();
-    if (lowest.value < -marginal) {
-      if (options_.leave_saddles && go_down(lowest)) {
-        store();
-        return {};
-      }
-      return fmt::format("a saddle of the energy: the lowest relative curvature is {:.2g}",
-                         lowest.value);
-    }
-    counts_.krylov += lowest.products;
-    return fmt::format(
-        "a minimum{}: the lowest relative curvature is {:.2g}",
-        lowest.value < marginal ? ", but for a direction of next to no curvature" : "",
-        lowest.value);
-  } catch (const RecoverableError& trouble) {
-    return fmt::format("its curvature is not known: {}", trouble.what());
+void CeresStepper::adjust_trust(const NewtonStep& step, double scale, double share) {
+  if (share < poor_share) {
+    trust_radius_ = shorter * scale * step.along.norm() / std::sqrt(scales_.energy);
+  } else if (step.is_bounded && scale == 1 && share > good_share) {
+    trust_radius_ *= longer;
   }
 }
 

@@ -49,7 +49,11 @@ std::vector<Request> MeshController::respond(const StepView& view) {
   if (!new_quality_) new_quality_ = view.diagnostics.quality;
   if (view.report.counts.steps == 0) return {};
   if (may_change(view) && is_moving(view)) is_final_ = false;
-  if (auto reason = misfit(view)) return ask(view, std::move(*reason));
+  const bool has_left = has_left_saddle(view);
+  if (auto reason = misfit(view)) {
+    if (has_left) is_final_ = false;
+    return ask(view, std::move(*reason));
+  }
   if (is_final_ || !may_change(view) || !is_slow(view)) return {};
   is_final_ = true;
   return ask(view, "the vesicle is near its equilibrium");
@@ -114,6 +118,13 @@ bool MeshController::is_slow(const StepView& view) const {
 
 bool MeshController::is_moving(const StepView& view) const {
   return view.report.gradient ? *view.report.gradient > far_from_minimum : speed(view) > moving;
+}
+
+/// Tells whether a minimiser has been at an equilibrium on the fine mesh and is under way again.
+bool MeshController::has_left_saddle(const StepView& view) {
+  const auto distance = view.report.gradient;
+  was_at_equilibrium_ = is_final_ && distance && (*distance < at_minimum || was_at_equilibrium_);
+  return was_at_equilibrium_ && *distance > near_minimum;
 }
 
 /// Of the surface along its normal, without rigid motion, in natural units.

@@ -128,7 +128,8 @@ struct AdaptionOptions {
 ///
 /// A minimiser has no velocity but a distance to the minimum (solve::StepReport::gradient), and
 /// its steps are few and long. It gets the fine mesh below the distance 0.01, coarse ones again
-/// above 0.3, at least 2 steps after the last change. Once it is near the minimum on the fine mesh,
+/// above 0.3, at least 2 steps after the last change, and at once when it has been below 1e-3 on the
+/// fine mesh and comes above 0.01: it has left a saddle and may have far to go. Once it is near the minimum on the fine mesh,
 /// that mesh stays, whatever its edges, and below 1e-3 also after a failed step.
 class MeshController final : public Controller {
  public:
@@ -145,12 +146,14 @@ class MeshController final : public Controller {
   [[nodiscard]] bool may_change(const StepView& view) const;
   [[nodiscard]] bool is_slow(const StepView& view) const;
   [[nodiscard]] bool is_moving(const StepView& view) const;
+  [[nodiscard]] bool has_left_saddle(const StepView& view);
   [[nodiscard]] double speed(const StepView& view) const;
 
   AdaptionOptions options_;
   model::Model model_;
   problem::Scales scales_;
   bool is_final_ = false;
+  bool was_at_equilibrium_ = false;    // a minimiser, on the fine mesh
   long last_change_ = 0;               // step
   std::optional<double> new_quality_;  // after the last change; absent until it is seen
   int changes_after_failures_ = 0;

@@ -199,6 +199,20 @@ TEST_F(MeshControllerOfAMinimiser, GoesBackToTheCoarseMeshFarFromTheMinimum) {
   EXPECT_TRUE(controller.respond(view_at_distance(14, 0.31)).empty());
 }
 
+TEST_F(MeshControllerOfAMinimiser, GivesUpTheFineMeshThatNoLongerFitsAfterASaddle) {
+  options_.final_curvature_angle = edge_for_unit_angle() / 3.1;
+  for (const double nearest : {1.1e-3, 9e-4}) {
+    MeshController controller(options_, model_, scales_);
+    refine(controller);
+    EXPECT_TRUE(controller.respond(view_at_distance(12, nearest)).empty());
+    const auto requests = controller.respond(view_at_distance(13, 1.1e-2));
+    ASSERT_EQ(requests.size(), 1U);
+    const auto& plan = std::get<Remesh>(requests.front()).plan;
+    EXPECT_EQ(std::get<adapt::SizeFieldOptions>(plan).curvature_angle,
+              nearest < 1e-3 ? options_.curvature_angle : options_.final_curvature_angle);
+  }
+}
+
 TEST_F(MeshControllerOfAMinimiser, TakesNoFailureAtTheMinimumForOneOfTheFineMesh) {
   MeshController controller(options_, model_, scales_);
   EXPECT_EQ(controller.respond_to_failure(view_at_distance(5, 9e-4)).size(), 1U);
