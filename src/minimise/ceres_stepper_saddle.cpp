@@ -25,9 +25,9 @@ constexpr double worthwhile = 1e-6;  // gain by leaving a saddle, over the energ
 
 }  // namespace
 
-/// The point after a change, of first order in it. Where c crosses zero as the tanh of an interface,
-/// a shift of the interface is a straight way in artanh(c), not in c: there the change is added by
-/// tanh(q + dq) = (c + tanh dq) / (1 + c tanh dq), with dq = dc / (1 - c^2).
+/// The point after a change, of first order in it. Where c crosses zero as the tanh of an
+/// interface, a shift of the interface is a straight way in artanh(c), not in c: there the change
+/// is added by tanh(q + dq) = (c + tanh dq) / (1 + c tanh dq), with dq = dc / (1 - c^2).
 Eigen::VectorXd CeresStepper::moved(const Eigen::VectorXd& change) const {
   Eigen::VectorXd unknowns = point_.unknowns + change;
   if (!is_two_phase()) return unknowns;

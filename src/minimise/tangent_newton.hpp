@@ -36,10 +36,10 @@ class TangentHessian {
                  const Slopes& slopes);
 
   /// Returns the Newton step for the optimality system: the shortest change that takes the
-  /// constraints by -errors, to first order, and along them truncated conjugate gradients (Steihaug)
-  /// until the residual is below `reduction` of its start, to the end of a ball of the given radius,
-  /// or where the energy curves downwards to that end. Without a radius they go on towards the
-  /// equilibrium, of whatever kind.
+  /// constraints by -errors, to first order, and along them truncated conjugate gradients
+  /// (Steihaug) until the residual is below `reduction` of its start, to the end of a ball of the
+  /// given radius, or where the energy curves downwards to that end. Without a radius they go on
+  /// towards the equilibrium, of whatever kind.
   [[nodiscard]] NewtonStep step(const Eigen::VectorXd& multipliers, const Eigen::VectorXd& errors,
                                 double reduction, std::optional<double> radius) const;
   /// Returns the lowest eigenvalue, a pure number, negative at a saddle.

@@ -55,6 +55,14 @@ auto with_block_size(const DofLayout& layout, Visit&& visit) {
   return visit(std::integral_constant<int, 4>{});
 }
 
+/// What `shared_directions` returns, with positions taken out of y only where they are needed.
+mesh::Positions directions_at(const model::Physics& physics,
+                              const mesh::Triangulation& triangulation, const DofLayout& layout,
+                              const Eigen::VectorXd& y) {
+  if (!needs_directions(physics)) return {};
+  return nodal_normals(triangulation, positions_of(layout, y));
+}
+
 /// Element nodes as dual numbers: derivative = the change of the surface along the rates.
 ElementNodes<Dual<1>> nodes_with_rates(const DofLayout& layout,
                                        const mesh::QuadraticTriangle& triangle,
@@ -224,7 +232,7 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
     return gradient_weight * g.value + second_weight * g.derivatives[0];
   };
   const auto physics = model_.at(0);  // the constraints do not depend on the material
-  const auto directions = shared_directions(physics, *triangulation_, positions_of(layout_, y));
+  const auto directions = directions_at(physics, *triangulation_, layout_, y);
   rows.setZero();
   for (const auto& triangle : triangulation_->triangles()) {
     const auto element = element_constraint_gradients(
@@ -247,7 +255,7 @@ void RelaxationProblem::assemble_rows(const EquationSettings& settings,
 ConstraintValues RelaxationProblem::constraints(const Eigen::VectorXd& y,
                                                 const Eigen::VectorXd& y_rate) const {
   const auto physics = model_.at(0);
-  const auto directions = shared_directions(physics, *triangulation_, positions_of(layout_, y));
+  const auto directions = directions_at(physics, *triangulation_, layout_, y);
   std::vector<std::array<Dual<1>, model::num_constraints>> elements(
       at(triangulation_->num_triangles()));
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {

@@ -113,6 +113,11 @@ class EnergyProblem {
                                                       const EnergyRates& rates) const;
 
  private:
+  template <class T, class Change>
+  [[nodiscard]] Eigen::MatrixXd assemble_gradient(const EnergyFields& fields,
+                                                  const Multipliers& multipliers,
+                                                  const EnergyRates& rates,
+                                                  const Change* along) const;
   template <class T>
   [[nodiscard]] ConstraintEvaluation assemble_constraints(const EnergyFields& fields,
                                                           const EnergyRates& rates) const;

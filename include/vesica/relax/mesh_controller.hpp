@@ -128,9 +128,10 @@ struct AdaptionOptions {
 ///
 /// A minimiser has no velocity but a distance to the minimum (solve::StepReport::gradient), and
 /// its steps are few and long. It gets the fine mesh below the distance 0.01, coarse ones again
-/// above 0.3, at least 2 steps after the last change, and at once when it has been below 1e-3 on the
-/// fine mesh and comes above 0.01: it has left a saddle and may have far to go. Once it is near the minimum on the fine mesh,
-/// that mesh stays, whatever its edges, and below 1e-3 also after a failed step.
+/// above 0.3, at least 2 steps after the last change, and at once when it has been below 1e-3 on
+/// the fine mesh and comes above 0.01: it has left a saddle and may have far to go. Once it is near
+/// the minimum on the fine mesh, that mesh stays, whatever its edges, and below 1e-3 also after a
+/// failed step.
 class MeshController final : public Controller {
  public:
   /// Makes the controller. The `scales` of the case give the units of max_size and of the velocity.

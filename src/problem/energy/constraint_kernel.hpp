@@ -47,19 +47,6 @@ void for_each_local_constraint(const model::Physics& physics, const model::Local
   });
 }
 
-/// Calls visit.operator()<Constraint>(place) for the constraints that look at the curvature and
-/// have a target. Free ones are left out, because their angles at the edges need the normals.
-template <class Visit>
-void for_each_curved_constraint(const model::Physics& physics, const Visit& visit) {
-  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
-    if constexpr (!model::LocalTerm<Constraint>) {
-      static_assert(model::CurvatureTerm<Constraint>,
-                    "a constraint needs add_to(), or a distributional curvature and its weight");
-      if (!physics.is_free[place]) visit.template operator()<Constraint>(place);
-    }
-  });
-}
-
 /// Computes the constrained functionals over one element; with T = Dual<1>, also their rates.
 template <class T>
 std::array<T, model::num_constraints> element_constraint_values(const ElementNodes<T>& nodes,

@@ -11,16 +11,32 @@
 
 namespace vesica::problem {
 
+/// Calls visit.operator()<Constraint>(place) for the constraints that look at the curvature and
+/// have a target. Free ones are left out, because their angles at the edges need the normals.
+template <class Visit>
+void for_each_curved_constraint(const model::Physics& physics, const Visit& visit) {
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
+    if constexpr (!model::LocalTerm<Constraint>) {
+      static_assert(model::CurvatureTerm<Constraint>,
+                    "a constraint needs add_to(), or a distributional curvature and its weight");
+      if (!physics.is_free[place]) visit.template operator()<Constraint>(place);
+    }
+  });
+}
+
+/// Tells whether the elements need directions to count angles at edges from.
+inline bool needs_directions(const model::Physics& physics) {
+  bool is_needed = false;
+  for_each_curved_constraint(physics, [&]<class>(std::size_t) { is_needed = true; });
+  return is_needed;
+}
+
 /// Returns directions that all elements at a node share, the normals of the surface, shape (N, 3),
-/// or an empty array where no constraint that looks at the curvature has a target.
+/// or an empty array where none are needed.
 inline mesh::Positions shared_directions(const model::Physics& physics,
                                          const mesh::Triangulation& triangulation,
                                          const mesh::Positions& positions) {
-  bool is_needed = false;
-  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
-    is_needed = is_needed || (model::CurvatureTerm<Constraint> && !physics.is_free[place]);
-  });
-  return is_needed ? nodal_normals(triangulation, positions) : mesh::Positions{};
+  return needs_directions(physics) ? nodal_normals(triangulation, positions) : mesh::Positions{};
 }
 
 /// Puts the shared directions into the nodes of an element.
@@ -175,10 +191,8 @@ void for_each_curvature_term(const model::Physics& physics,
       if (has_curvature_form<Energy>(physics)) visit.template operator()<Energy>(1.0);
     }
   });
-  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
-    if constexpr (model::CurvatureTerm<Constraint>) {
-      if (!physics.is_free[place]) visit.template operator()<Constraint>(multipliers[place]);
-    }
+  for_each_curved_constraint(physics, [&]<class Constraint>(std::size_t place) {
+    visit.template operator()<Constraint>(multipliers[place]);
   });
 }
 

@@ -77,8 +77,7 @@ model::EnergyParts EnergyProblem::energy(const EnergyFields& fields) const {
   std::vector<std::array<double, model::num_energies>> parts(count);
   parallel_for(triangulation_->num_triangles(), threads_, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      const auto element =
-          energy_element(fields, {}, triangulation_->triangles()[at(t)], {vertex_angles_});
+      const auto element = energy_element(fields, {}, triangulation_->triangles()[at(t)]);
       for (const auto& point : fem::triangle_rule())
         add_densities(physics, energy_point(element, point.shape), point.weight, parts[at(t)]);
     }
@@ -111,21 +110,36 @@ Eigen::VectorXd EnergyProblem::mean_curvature(const EnergyFields& fields) const 
   return curvature;
 }
 
-EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,
-                                     const EnergyRates& rates) const {
+/// Sums the derivative of E_h + sum lambda_i C_i over the elements of each node, shape (N, 7): x,
+/// p, c. With a change, T = PackDual, its change, without that of p.
+template <class T, class Change>
+Eigen::MatrixXd EnergyProblem::assemble_gradient(const EnergyFields& fields,
+                                                 const Multipliers& multipliers,
+                                                 const EnergyRates& rates,
+                                                 const Change* along) const {
   const auto physics = model_.at(fields.time);
+  bool is_curved = false;
+  for_each_curvature_term(physics, multipliers, [&]<class>(double) { is_curved = true; });
   const Surroundings around{vertex_angles_,
                             shared_directions(physics, *triangulation_, fields.positions)};
   ElementNumbers local(triangulation_->num_triangles(), 42);
   for_each_pack(triangulation_->num_triangles(), threads_, [&](int first) {
-    auto element = element_pack<Pack>(*triangulation_, first, fields, rates);
+    auto element = element_pack<T>(*triangulation_, first, fields, rates, along);
     GradientTable table{};
-    add_energy_gradient(physics, multipliers, element, true, table);
-    surround(*triangulation_, first, around, element);
-    add_curvature_terms(physics, multipliers, element, table);
+    add_energy_gradient(physics, multipliers, element, along == nullptr, table);
+    if (is_curved) {
+      surround(*triangulation_, first, around, element);
+      add_curvature_terms(physics, multipliers, element, table);
+    }
     store(table, first, local.span());
   });
-  const Eigen::MatrixXd sums = gather(graph_, local.span(), 7, threads_);
+  return gather(graph_, local.span(), 7, threads_);
+}
+
+EnergyFields EnergyProblem::gradient(const EnergyFields& fields, const Multipliers& multipliers,
+                                     const EnergyRates& rates) const {
+  const EnergyChange* none = nullptr;
+  const auto sums = assemble_gradient<Pack>(fields, multipliers, rates, none);
   check_finite(sums.allFinite(), "the gradient");
   EnergyFields result{sums.leftCols<3>(), sums.middleCols<3>(3), {}};
   if (model_.is_two_phase) result.order_parameter = sums.col(6);
@@ -150,20 +164,8 @@ EnergyFields EnergyProblem::gradient_change(const EnergyFields& fields,
                                             const Multipliers& multipliers,
                                             const EnergyRates& rates, const EnergyFields& change,
                                             const EnergyRates& rate_change) const {
-  const auto physics = model_.at(fields.time);
-  const Surroundings around{vertex_angles_,
-                            shared_directions(physics, *triangulation_, fields.positions)};
   const EnergyChange along{change, rate_change};
-  ElementNumbers local(triangulation_->num_triangles(), 42);
-  for_each_pack(triangulation_->num_triangles(), threads_, [&](int first) {
-    auto element = element_pack<PackDual>(*triangulation_, first, fields, rates, &along);
-    GradientTable table{};
-    add_energy_gradient(physics, multipliers, element, false, table);
-    surround(*triangulation_, first, around, element);
-    add_curvature_terms(physics, multipliers, element, table);
-    store(table, first, local.span());
-  });
-  const Eigen::MatrixXd sums = gather(graph_, local.span(), 7, threads_);
+  const auto sums = assemble_gradient<PackDual>(fields, multipliers, rates, &along);
   EnergyFields result{sums.leftCols<3>(), {}, {}};
   if (model_.is_two_phase) result.order_parameter = sums.col(6);
   return result;
@@ -185,7 +187,7 @@ ConstraintEvaluation EnergyProblem::assemble_constraints(const EnergyFields& fie
   for_each_pack(triangulation_->num_triangles(), threads_, [&](int first) {
     auto element = element_pack<T>(*triangulation_, first, fields, {},
                                    rates.velocity.rows() > 0 ? &along : nullptr);
-    surround(*triangulation_, first, around, element);
+    if (around.directions.rows() > 0) surround(*triangulation_, first, around, element);
     const auto sums = element_constraint_gradients<T>(element, physics);
     std::array<Pack, num> totals;
     std::array<Pack, 6 * row_size> table{};
