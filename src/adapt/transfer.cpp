@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "vesica/core/error.hpp"
 #include "vesica/fem/quadratic_triangle.hpp"
 #include "vesica/fem/surface_element.hpp"
+#include "vesica/linalg/dense.hpp"
 #include "vesica/mesh/local_nodes.hpp"
 
 namespace vesica::adapt {
@@ -114,10 +114,8 @@ Restored restore_integrals(const Integrals& integrals, const Eigen::VectorXd& ta
         derivatives(integrals, result.fields, directions, full_steps, targets.size());
     const Eigen::VectorXd scales = jacobian.rowwise().lpNorm<Eigen::Infinity>();
     result.converged = (result.error.array().abs() <= small_error * scales.array()).all();
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(parallel);
-    solver.compute(jacobian);
-    const Eigen::VectorXd step = -solver.solve(result.error);
+    if (!jacobian.allFinite()) break;
+    const Eigen::VectorXd step = -linalg::singular_system(jacobian).solve(result.error, parallel);
     if (result.converged || !step.allFinite() || largest(step) < negligible) break;
     for (Eigen::Index k = 0; k < step.size(); ++k) {
       result.fields =

@@ -1,10 +1,10 @@
 #include "alignment_starts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numbers>
+
+#include "vesica/linalg/dense.hpp"
 
 namespace vesica::compare {
 namespace {
@@ -23,12 +23,12 @@ RigidMotion node_onto_node(const mesh::Positions& first, const mesh::Positions& 
   const Eigen::RowVector3d second_mean = second.colwise().mean();
   const Eigen::Matrix3d covariance =
       (first.rowwise() - first_mean).transpose() * (second.rowwise() - second_mean);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const auto system = linalg::singular_system(covariance);
+  const Eigen::Matrix3d left = system.left;
+  const Eigen::Matrix3d right = system.right;
+  const double sign = (left * right.transpose()).determinant() < 0 ? -1 : 1;
   RigidMotion motion;
-  motion.rotation =
-      svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  motion.rotation = left * Eigen::Vector3d(1, 1, sign).asDiagonal() * right.transpose();
   motion.translation = first_mean.transpose() - motion.rotation * second_mean.transpose();
   return motion;
 }
@@ -39,9 +39,9 @@ struct PrincipalAxes {
   Eigen::Vector3d variances;
 
   explicit PrincipalAxes(const Eigen::Matrix3d& variance) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(variance);
-    axes = eigen.eigenvectors();
-    variances = eigen.eigenvalues();
+    const auto eigen = linalg::symmetric_eigensystem(variance);
+    axes = eigen.vectors;
+    variances = eigen.values;
     if (axes.determinant() < 0) axes.col(0) *= -1;
   }
   [[nodiscard]] bool are_alike(int a, int b) const {

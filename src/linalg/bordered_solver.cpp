@@ -45,11 +45,8 @@ void BorderedSolver::factorise(const BorderedMatrix& matrix) {
   }
   Eigen::MatrixXd schur = rows_ * solved_columns_;
   if (matrix.corner.size() > 0) schur -= matrix.corner;
-  schur_.compute(schur);
-  if (!solved_columns_.allFinite() ||
-      (matrix.columns.cols() > 0 && schur_.matrixLU().diagonal().cwiseAbs().minCoeff() == 0)) {
+  if (!schur_.factorise(schur))
     throw RecoverableError("bordered matrix: the constraints are not independent");
-  }
 }
 
 Eigen::VectorXd BorderedSolver::solve(const Eigen::VectorXd& b) const {

@@ -1,6 +1,6 @@
 #include "vesica/measure/diagnostics.hpp"
+#include "vesica/linalg/dense.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -102,13 +102,13 @@ VelocityNorms velocity_norms(const problem::State& state) {
         normal_squared += sample.weight * normal * normal;
         tangential_squared += sample.weight * (dot(velocity, velocity) - normal * normal);
       });
-  const Eigen::SelfAdjointEigenSolver<problem::RigidGram> eigen(gram);
-  problem::RigidModes coefficients = eigen.eigenvectors().transpose() * projection;
+  const auto eigen = linalg::symmetric_eigensystem(gram);
+  problem::RigidModes coefficients = eigen.vectors.transpose() * projection;
   for (int i = 0; i < 6; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    coefficients[i] = value > 1e-6 * eigen.eigenvalues()[5] ? coefficients[i] / value : 0;
+    const double value = eigen.values[i];
+    coefficients[i] = value > 1e-6 * eigen.values[5] ? coefficients[i] / value : 0;
   }
-  const problem::RigidModes rigid = eigen.eigenvectors() * coefficients;
+  const problem::RigidModes rigid = eigen.vectors * coefficients;
   double rest_squared = 0;
   fem::for_each_point(
       *state.triangulation, state.values.positions, [&](const fem::SurfaceSample& sample) {

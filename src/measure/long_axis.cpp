@@ -1,12 +1,12 @@
 #include "long_axis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "vesica/fem/surface_integral.hpp"
+#include "vesica/linalg/dense.hpp"
 
 namespace vesica::measure {
 namespace {
@@ -115,10 +115,10 @@ Eigen::Vector3d direction_of_largest_extent(const mesh::Positions& positions) {
 
 LongAxis long_axis(const problem::State& state) {
   constexpr double least_difference = 0.01;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(variance(state));
+  const auto eigen = linalg::symmetric_eigensystem(variance(state));
   LongAxis axis;
-  axis.is_unique = eigen.eigenvalues()[1] < (1 - least_difference) * eigen.eigenvalues()[2];
-  axis.direction = axis.is_unique ? Eigen::Vector3d(eigen.eigenvectors().col(2))
+  axis.is_unique = eigen.values[1] < (1 - least_difference) * eigen.values[2];
+  axis.direction = axis.is_unique ? Eigen::Vector3d(eigen.vectors.col(2))
                                   : direction_of_largest_extent(state.values.positions);
   const auto range = extent(state, axis.direction);
   axis.low = range.low;

@@ -1,11 +1,11 @@
 #include "vesica/measure/profile.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "cross_sections.hpp"
 #include "long_axis.hpp"
 #include "surface_probe.hpp"
+#include "vesica/linalg/dense.hpp"
 
 namespace vesica::measure {
 namespace {
@@ -30,9 +30,8 @@ ProfilePlane profile_plane(const problem::State& state) {
   plane.along = long_axis(state).direction;
   const Eigen::Matrix3d projection =
       Eigen::Matrix3d::Identity() - plane.along * plane.along.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(projection * probe.variance() *
-                                                             projection);
-  plane.across = eigen.eigenvectors().col(2);
+  const auto eigen = linalg::symmetric_eigensystem(projection * probe.variance() * projection);
+  plane.across = eigen.vectors.col(2);
   return plane;
 }
 

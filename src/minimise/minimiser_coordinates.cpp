@@ -1,9 +1,9 @@
 #include "minimiser_coordinates.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <limits>
 #include <utility>
+
+#include "vesica/linalg/dense.hpp"
 
 namespace vesica::minimise {
 
@@ -22,18 +22,15 @@ Eigen::MatrixXd normalised(const Eigen::MatrixXd& columns) {
 
 /// Least-squares solution of smallest norm.
 Eigen::VectorXd solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rhs) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(dependence);
-  return svd.solve(rhs);
+  return linalg::singular_system(columns).solve(rhs, dependence);
 }
 
 }  // namespace
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   if (columns.cols() == 0) return columns;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(1e-6);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  const auto system = linalg::singular_system(columns);
+  return system.left.leftCols(system.rank(1e-6));
 }
 
 Eigen::VectorXd Slopes::multipliers() const {
@@ -66,10 +63,9 @@ void MinimiserCoordinates::absorb(const Eigen::MatrixXd& constraint_slopes,
                                   const Eigen::VectorXd& weights, double step) {
   step_ = step;
   if (constraint_slopes.cols() == 0) return;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(constraint_slopes * weights.cwiseSqrt().asDiagonal(),
-                                              Eigen::ComputeThinU);
-  constrained_ = svd.matrixU();
-  shrinkage_ = (1 + svd.singularValues().array().square()).rsqrt() - 1;
+  auto system = linalg::singular_system(constraint_slopes * weights.cwiseSqrt().asDiagonal());
+  constrained_ = std::move(system.left);
+  shrinkage_ = (1 + system.values.array().square()).rsqrt() - 1;
 }
 
 Eigen::VectorXd MinimiserCoordinates::change(const Eigen::VectorXd& y) const {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "solve/newton_system.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/linalg/dense.hpp"
 #include "vesica/problem/scales.hpp"
 
 namespace vesica::paper {
@@ -175,7 +175,8 @@ problem::Fields SemiImplicitStepper::meet_constraints(const SemiImplicitSolution
     if (!errors.allFinite()) break;
     if ((errors.array().abs() < constraint_tolerance * scales.array()).all()) return trial;
     ++counts_.newton;
-    const Eigen::FullPivLU<Eigen::MatrixXd> slopes(problem_.constraint_slopes(trial, solution));
+    linalg::DenseLu slopes;
+    if (!slopes.factorise(problem_.constraint_slopes(trial, solution))) break;
     multipliers -= slopes.solve(errors);
   }
   throw RecoverableError("the quasi-Newton iteration for the multipliers does not converge");

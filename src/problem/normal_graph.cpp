@@ -1,9 +1,8 @@
 #include "vesica/problem/normal_graph.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "rigid_modes.hpp"
 #include "vesica/fem/surface_integral.hpp"
+#include "vesica/linalg/dense.hpp"
 
 namespace vesica::problem {
 
@@ -26,11 +25,11 @@ Gauge rigid_gauge(const mesh::Triangulation& triangulation, const mesh::Position
       moments.row(sample.triangle[i]) += sample.weight * sample.shape.value[i] * modes.transpose();
     }
   });
-  const Eigen::SelfAdjointEigenSolver<RigidGram> eigen(gram);
-  Gauge gauge = moments * eigen.eigenvectors();
+  const auto eigen = linalg::symmetric_eigensystem(gram);
+  Gauge gauge = moments * eigen.vectors;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const double value = eigen.eigenvalues()[k];
-    if (value > negligible_mode * eigen.eigenvalues()[5]) {
+    const double value = eigen.values[k];
+    if (value > negligible_mode * eigen.values[5]) {
       gauge.col(k) /= std::sqrt(value);
     } else {
       gauge.col(k).setZero();

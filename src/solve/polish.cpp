@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Spectra/LinAlg/Lanczos.h>
-
-#include <Eigen/Eigenvalues>
 #include <limits>
-#include <random>
 
+#include "lanczos.hpp"
 #include "newton_system.hpp"
 #include "vesica/core/check.hpp"
 #include "vesica/problem/scales.hpp"
@@ -132,69 +129,36 @@ PolishReport Optimality::solve() {
   return report;
 }
 
-/// z -> M z, for Spectra: the metric acts on displacements and order parameter only.
-struct Metric {
-  using Scalar = double;
-  linalg::BorderedMatrix matrix;
-  Eigen::VectorXd mask;
-
-  void perform_op(const double* z, double* product) const {
-    const Eigen::Map<const Eigen::VectorXd> in(z, mask.size());
-    Eigen::Map<Eigen::VectorXd>(product, mask.size()) =
-        matrix.multiply(in.cwiseProduct(mask)).cwiseProduct(mask);
-  }
-};
-
-/// z -> (H + s M)^-1 M z on the tangent space of constraints and gauge, for Spectra.
-struct Inverse {
-  using Scalar = double;
-  NewtonSystem& system;
-  const Metric& metric;
-
-  [[nodiscard]] Eigen::Index rows() const { return metric.mask.size(); }
-  void perform_op(const double* z, double* image) const {
-    Eigen::VectorXd product(rows());
-    metric.perform_op(z, product.data());
-    Eigen::Map<Eigen::VectorXd>(image, rows()) = system.solve(product);
-  }
-};
-
-/// Lanczos' method in the inner product of M. The extreme eigenvalues are 1 / (theta + s). Both
-/// ends matter, and few vectors suffice: Spectra's factorisation without its restarts.
+/// Lanczos' method for z -> (H + s M)^-1 M z on the tangent space of constraints and gauge, in the
+/// inner product of M, which acts on displacements and order parameter only. Its extreme
+/// eigenvalues are 1 / (theta + s), and both ends matter: theta < -s shows as a negative one.
 Curvature Optimality::lowest_curvature() {
   const double s = shift / scales_.time();
-  Metric metric{problem_.make_matrix(), problem_.differential_mask()};
-  problem_.jacobian(at_rest(), {0, 1}, time_, y_, rest_, metric.matrix);
+  linalg::BorderedMatrix matrix = problem_.make_matrix();
+  const Eigen::VectorXd mask = problem_.differential_mask();
+  problem_.jacobian(at_rest(), {0, 1}, time_, y_, rest_, matrix);
   system_.set_up(at_rest(), {1, s}, time_, y_, rest_);
-  std::mt19937 engine(1);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  const Eigen::VectorXd start =
-      Eigen::VectorXd::NullaryExpr(y_.size(), [&] { return uniform(engine); });
-
-  using Operators = Spectra::ArnoldiOp<double, Inverse, Metric>;
-  const Inverse inverse{system_, metric};
-  Spectra::Lanczos<double, Operators> krylov(Operators(inverse, metric), krylov_dimension);
-  Eigen::Map<const Eigen::VectorXd> start_view(start.data(), start.size());
-  Eigen::Index operations = 0;
-  krylov.init(start_view, operations);
+  const auto metric = [&](const Eigen::VectorXd& z) -> Eigen::VectorXd {
+    return matrix.multiply(z.cwiseProduct(mask)).cwiseProduct(mask);
+  };
+  Lanczos lanczos([&](const Eigen::VectorXd& z) { return system_.solve(metric(z)); }, metric,
+                  y_.size(), krylov_dimension);
   Curvature result;
-  for (Eigen::Index size = 1;; ++size) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        krylov.matrix_H().topLeftCorner(size, size));
-    // theta < -s shows as a negative eigenvalue of the inverse
-    const Eigen::Index which = eigen.eigenvalues()[0] < 0 ? 0 : size - 1;
+  for (;;) {
+    const auto size = lanczos.dimension();
+    const auto eigen = lanczos.projected();
+    const Eigen::Index which = eigen.values[0] < 0 ? 0 : size - 1;
     const double last = result.value;
-    result.value = 1 / eigen.eigenvalues()[which] - s;
+    result.value = 1 / eigen.values[which] - s;
     const bool is_settled =
         size > min_krylov_dimension && std::abs(result.value - last) <= eigenvalue_tolerance * s;
     if (is_settled || size == krylov_dimension) {
-      result.mode = problem_.displacements(krylov.matrix_V().leftCols(size) *
-                                           eigen.eigenvectors().col(which));
+      result.mode = problem_.displacements(lanczos.vector(eigen.vectors.col(which)));
       result.mode /=
           std::max(result.mode.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
       return result;
     }
-    krylov.factorize_from(size, size + 1, operations);
+    lanczos.extend(size + 1);
   }
 }
 

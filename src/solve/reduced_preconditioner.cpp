@@ -89,8 +89,7 @@ void ReducedPreconditioner::set_up(const problem::ReducedPoint& point,
   for (Eigen::Index k = 0; k < schur.cols(); ++k) {
     if (there.columns.col(k).isZero(0)) schur(k, k) -= 1;  // no such rigid motion: mu_k = 0
   }
-  schur_.compute(schur);
-  if (!solved_columns_.allFinite() || schur_.matrixLU().diagonal().cwiseAbs().minCoeff() == 0)
+  if (!schur_.factorise(schur))
     throw RecoverableError("preconditioner: the constraints are not independent");
 }
 

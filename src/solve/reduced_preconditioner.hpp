@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "linalg/supernodal_cholesky.hpp"
 #include "problem/reduced_problem.hpp"
+#include "vesica/linalg/dense.hpp"
 #include "vesica/problem/scales.hpp"
 
 namespace vesica::solve {
@@ -46,7 +46,7 @@ class ReducedPreconditioner {
   bool is_metric_ = false;  // weights {0, 1}: no T, the metric itself
   Eigen::MatrixXd rows_;
   Eigen::MatrixXd solved_columns_;
-  Eigen::FullPivLU<Eigen::MatrixXd> schur_;
+  linalg::DenseLu schur_;
 };
 
 }  // namespace vesica::solve

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <memory>
 
+#include "vesica/linalg/dense.hpp"
 #include "vesica/linalg/direct_solver.hpp"
 
 namespace vesica::linalg {
@@ -45,7 +45,7 @@ class BorderedSolver {
   std::unique_ptr<DirectSolver> direct_;
   Eigen::MatrixXd rows_;
   Eigen::MatrixXd solved_columns_;  // K^-1 columns
-  Eigen::FullPivLU<Eigen::MatrixXd> schur_;
+  DenseLu schur_;
 };
 
 }  // namespace vesica::linalg
