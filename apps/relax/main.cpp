@@ -16,6 +16,11 @@ int relax_case(const config::RunConfig& config, const Arguments& arguments) {
   options.resumed = arguments.resumed;
   const setup::Case vesicle = run::prepare(config, options);
   print_warnings(vesicle.warnings);
+  if (config.solver.method == solve::Method::automatic && !arguments.options.is_quiet) {
+    const config::MethodChoice choice = config::choose_method(config);
+    std::cout << "solver.method = auto: " << name_of(choice.method) << ", since " << choice.reason
+              << '\n';
+  }
   options.interrupt = &catch_signals();
   const relax::Verdict verdict = run::run(config, vesicle, options).verdict;
   if (!arguments.options.is_quiet) {

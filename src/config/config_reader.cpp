@@ -125,18 +125,12 @@ const toml::node* find(const CaseDocument& document, std::string_view table, std
 }
 
 /// The preset comes before the keys it sets.
-void apply_accuracy(const CaseDocument& document, RunConfig& config) {
+void read_accuracy(const CaseDocument& document, RunConfig& config) {
   const toml::node* node = find(document, "solver", accuracy_field.name);
   if (node == nullptr) return;
   const std::string key = "solver.accuracy";
   assign(Entry{document.place(key, node->source()), key, *node}, config.accuracy);
-  if (config.accuracy == Accuracy::draft) {
-    config.solver.rtol = 1e-2;
-    config.stop.normal_velocity = 1e-2;
-  } else if (config.accuracy == Accuracy::reference) {
-    config.solver.rtol = 1e-5;
-    config.stop.normal_velocity = 1e-4;
-  }
+  apply_accuracy(config.accuracy, config);
 }
 
 /// The paper's scheme comes with its damping constants and its stopping rule (3.4), unless the case
@@ -162,15 +156,14 @@ void check_rules_between_options(const CaseDocument& document, const RunConfig& 
 }
 
 /// Which methods can go on from a state on a new mesh.
-void check_adaption(const solve::SolverOptions& solver, relax::MeshMethod method) {
-  if (solver.method == solve::Method::minimize) {
-    if (method == relax::MeshMethod::local) return;
-    refuse("adaption.method", name_of(method), "must be local for solver.method = minimize");
+void check_adaption(solve::Method method, relax::MeshMethod mesh_method) {
+  if (method == solve::Method::minimize) {
+    if (mesh_method == relax::MeshMethod::local) return;
+    refuse("adaption.method", name_of(mesh_method), "must be local for solver.method = minimize");
   }
-  if (solver.method == solve::Method::ida) return;
+  if (method == solve::Method::ida) return;
   refuse("adaption.enabled", true,
-         fmt::format("needs solver.method = \"minimize\" or \"ida\", not \"{}\"",
-                     name_of(solver.method)));
+         fmt::format("needs solver.method = \"minimize\" or \"ida\", not \"{}\"", name_of(method)));
 }
 
 }  // namespace
@@ -179,7 +172,7 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
                            std::span<const std::string> overrides) {
   const CaseDocument document(text, name, overrides);
   RunConfig config;
-  apply_accuracy(document, config);
+  read_accuracy(document, config);
   apply_method(document, config);
   ConfigReader reader(document);
   reader.read_title(config.title);
@@ -191,7 +184,8 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
   return config;
 }
 
-void check(const RunConfig& config) {
+void check(const RunConfig& given) {
+  const RunConfig config = resolved(given);
   RunConfig::tables(config, []<class Options>(const Table& table, const Options& options) {
     if constexpr (requires { options.has_value(); }) {
       if (options) vesica::check(table.name, *options);
@@ -199,7 +193,7 @@ void check(const RunConfig& config) {
       vesica::check(table.name, options);
     }
   });
-  if (config.adaption.enabled) check_adaption(config.solver, config.adaption.method);
+  if (config.adaption.enabled) check_adaption(config.solver.method, config.adaption.method);
 }
 
 std::string placed(const RunConfig& config, std::string_view message) {

@@ -41,6 +41,9 @@ std::string describe(const MeshCondition& condition) {
 
 MeshCare::MeshCare(const mesh::Surface& start) : start_(mesh_condition(start)), fresh_(start_) {}
 
+MeshCare::MeshCare(const mesh::Surface& start, const MeshCondition& fresh)
+    : start_(mesh_condition(start)), fresh_(fresh) {}
+
 bool MeshCare::is_degenerate(const MeshCondition& condition) const {
   return condition.quality < std::min(lowest_quality, quality_against_start * start_.quality) ||
          condition.area_ratio >

@@ -30,6 +30,8 @@ struct MovedNodes {
 class MeshCare {
  public:
   explicit MeshCare(const mesh::Surface& start);
+  /// Measures wear from another condition than that of the start.
+  MeshCare(const mesh::Surface& start, const MeshCondition& fresh);
 
   /// Tells whether a mesh is so bad that no result may come from it: quality below 0.1, elements of
   /// very different size, or folds.

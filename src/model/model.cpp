@@ -20,10 +20,11 @@ struct CollectSchedules {
   void operator()(const Field&, const std::optional<double>&) const {}
 };
 
-struct TakeLastValue {
-  void operator()(const Field&, Schedule& schedule) const { schedule = schedule.last(); }
+struct TakeValue {
+  double time;
+  void operator()(const Field&, Schedule& schedule) const { schedule = schedule.value(time); }
   void operator()(const Field&, PhaseSchedules& pair) const {
-    pair = {pair.phase_1.last(), pair.phase_2.last()};
+    pair = {pair.phase_1.value(time), pair.phase_2.value(time)};
   }
   void operator()(const Field&, const std::optional<double>&) const {}
 };
@@ -66,11 +67,11 @@ double Model::rests_after() const {
   return last;
 }
 
-Model Model::at_rest() const {
+Model Model::frozen(double time) const {
   Model result = *this;
-  MaterialOptions::fields(result.material, TakeLastValue{});
+  MaterialOptions::fields(result.material, TakeValue{time});
   for (auto& target : result.targets.values) {
-    if (target) target = Schedule(target->last());
+    if (target) target = Schedule(target->value(time));
   }
   return result;
 }

@@ -14,7 +14,6 @@
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
-
 namespace {
 
 constexpr double restart_step = 0.3;  // of the last step, on a new mesh
@@ -155,8 +154,7 @@ class Run {
   std::optional<Stop> respond_to_failure() {
     const std::string failure = report_.reason;
     const Answers answers = ask(&Controller::respond_to_failure);
-    const bool is_interrupted = answers.stop && answers.stop->status == RunStatus::interrupted;
-    if (is_interrupted) return answers.stop;
+    if (answers.stop && answers.stop->status == RunStatus::interrupted) return answers.stop;
     if (const auto limit = respond_to_limit()) return limit;
     if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
     return explained({RunStatus::numerical_failure, failure}, answers.stop);
@@ -233,6 +231,7 @@ class Run {
     if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
       return std::nullopt;
     }
+    if (const auto unresolved = Stationarity::unresolved(view())) return unresolved;
     if (report_.gradient) {
       return Stop{RunStatus::converged,
                   fmt::format("distance to the minimum {:.2e} below {:g}, constraints met{}",
@@ -240,8 +239,9 @@ class Run {
     }
     return Stop{
         RunStatus::converged,
-        fmt::format("normal velocity {:.2e} below {:g}, multipliers at rest, constraints met{}",
-                    Stationarity::normal_velocity(diagnostics_), stop_.normal_velocity, found)};
+        fmt::format("normal velocity {:.2e} below {:g} k/R_c^3, multipliers at rest, constraints "
+                    "met{}",
+                    stationarity_.normal_velocity(diagnostics_), stop_.normal_velocity, found)};
   }
 
   Outcome conclude(const Stop& end) {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double smallest_quality = 0.1;        // of a new mesh, 0.5 as a rule
 constexpr double smallest_normal_cosine = 0.0;  // of a new mesh: neighbours form no fold
+constexpr double quality_kept = 0.7;            // where the constraints are restored
 constexpr double coarsest_angle = 0.5;          // where nodes are short; edge times curvature
 constexpr double coarsest_interface = 0.5;      // and edge over interface width
 constexpr int halvings = 6;
@@ -49,24 +50,33 @@ problem::Fields carried_over(const mesh::Triangulation& old,
   return result;
 }
 
-/// V, A and, with two phases, int h(c): the constrained functionals that the state has.
-Eigen::VectorXd integrals_of(const problem::State& state) {
+/// Tells whether a new mesh gives a functional back: one that is constrained, or is unless the case
+/// leaves it free.
+template <class Constraint>
+bool is_restored(const model::Model& model, const problem::State& state) {
+  if (Constraint::needs_phase_field && !state.is_two_phase()) return false;
+  return model.targets.of<Constraint>() || !requires { Constraint::default_target; };
+}
+
+/// The functionals that are restored.
+Eigen::VectorXd integrals_of(const model::Model& model, const problem::State& state) {
   const auto measured = measure::measure({{}, state.is_two_phase(), {}}, state).measures;
   std::vector<double> present;
-  for (const auto& value : measured.values) {
-    if (value) present.push_back(*value);
-  }
+  model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t place) {
+    if (is_restored<Constraint>(model, state)) present.push_back(measured.values[place].value());
+  });
   return Eigen::Map<const Eigen::VectorXd>(present.data(),
                                            static_cast<Eigen::Index>(present.size()));
 }
 
 /// Directions in which the functionals are restored: along the normals by the variation of each, or
 /// in c by that of the ones that depend on it.
-std::vector<adapt::NodalChange> restoring_changes(const problem::State& state) {
+std::vector<adapt::NodalChange> restoring_changes(const model::Model& model,
+                                                  const problem::State& state) {
   const Eigen::Index n = state.values.positions.rows();
   std::vector<adapt::NodalChange> changes;
   model::for_each_term<model::Constraints>([&]<class Constraint>(std::size_t) {
-    if (Constraint::needs_phase_field && !state.is_two_phase()) return;
+    if (!is_restored<Constraint>(model, state)) return;
     Eigen::VectorXd change(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       model::SurfacePoint<double> point{};
@@ -81,16 +91,22 @@ std::vector<adapt::NodalChange> restoring_changes(const problem::State& state) {
   return changes;
 }
 
-void restore(problem::State& state, const Eigen::VectorXd& targets) {
-  const auto directions = adapt::restoring_directions(state.surface(), restoring_changes(state));
+/// Takes the constrained functionals back to what they were, unless the mesh would suffer: a stepper
+/// meets its constraints anyway.
+void restore(const model::Model& model, problem::State& state, const Eigen::VectorXd& targets) {
+  const auto directions =
+      adapt::restoring_directions(state.surface(), restoring_changes(model, state));
   problem::State trial = state;
-  const auto integrals = [&trial](const adapt::RestorableFields& fields) {
+  const auto integrals = [&](const adapt::RestorableFields& fields) {
     trial.values.positions = fields.positions;
     trial.values.order_parameter = fields.order_parameter;
-    return integrals_of(trial);
+    return integrals_of(model, trial);
   };
   auto restored = adapt::restore_integrals(integrals, targets, directions,
                                            {state.values.positions, state.values.order_parameter});
+  const mesh::Surface surface{state.triangulation, restored.fields.positions};
+  if (quality_of(surface) < quality_kept * quality_of(state.surface()) || !is_usable(surface))
+    return;
   state.values.positions = std::move(restored.fields.positions);
   state.values.order_parameter = std::move(restored.fields.order_parameter);
 }
@@ -227,7 +243,7 @@ std::optional<problem::State> remeshed(const model::Model& model, const problem:
   result.triangulation = changed->surface.triangulation;
   result.values = carried_over(*old.triangulation, changed->origins, old.values);
   result.rates = carried_over(*old.triangulation, changed->origins, old.rates);
-  restore(result, integrals_of(old));
+  restore(model, result, integrals_of(model, old));
   return result;
 }
 

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "vesica/core/check.hpp"
+#include "vesica/mesh/quality.hpp"
 
 namespace vesica::relax {
 
 namespace {
+
+constexpr double resolved_cosine = 0.6;  // above 0.8 where the error of the energy is below 1e-3
 
 /// Multipliers in k/R_c^3 (volume) and k/R_c^2 (area, phase), so that they can be compared.
 std::array<double, model::num_constraints> in_natural_units(const model::PerConstraint& multipliers,
@@ -51,8 +55,10 @@ bool Stationarity::meets_velocity(const StepView& view) const {
   return normal_velocity(view.diagnostics) < options_.normal_velocity;
 }
 
-double Stationarity::normal_velocity(const measure::Diagnostics& diagnostics) {
-  return diagnostics.velocity.normal_rigid_free / diagnostics.characteristic_radius();
+double Stationarity::normal_velocity(const measure::Diagnostics& diagnostics) const {
+  const double radius = diagnostics.characteristic_radius();
+  const double rigidity = model_.material.bending_rigidity.phase_1.last();
+  return diagnostics.velocity.normal_rigid_free * radius * radius / rigidity;
 }
 
 bool Stationarity::meets_constraints(const measure::Diagnostics& diagnostics) const {
@@ -75,6 +81,17 @@ bool Stationarity::multipliers_moved(const StepView& view) const {
     change = std::max(change, std::abs(now[i] - before[i]));
   }
   return change > options_.multiplier_change * largest;
+}
+
+std::optional<Stop> Stationarity::unresolved(const StepView& view) {
+  const auto& state = view.state;
+  const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);
+  if (cosine > resolved_cosine) return std::nullopt;
+  return Stop{RunStatus::unresolved,
+              fmt::format("at rest, but the mesh is too coarse for the shape: normals of "
+                          "neighbouring elements differ by up to {:.0f} degrees; adaption.enabled "
+                          "= true, more adaption.max_nodes or a finer mesh may help",
+                          std::acos(std::max(-1.0, cosine)) * 180 / std::numbers::pi)};
 }
 
 std::optional<Stop> Stationarity::limit(const StepView& view) const {

@@ -38,6 +38,7 @@ int exit_status(const relax::Outcome& outcome) {
     case relax::RunStatus::neck_closes:
     case relax::RunStatus::budding:
     case relax::RunStatus::self_intersection:
+    case relax::RunStatus::unresolved:
       return 1;
     case relax::RunStatus::interrupted:
       return 128 + (outcome.signal == 0 ? SIGINT : outcome.signal);

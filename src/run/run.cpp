@@ -1,10 +1,12 @@
 #include "vesica/run/run.hpp"
 
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "start_care.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/run_reader.hpp"
@@ -47,10 +49,29 @@ relax::Outcome outcome_of_failed_start(const setup::Case& vesicle, std::string r
 
 using Observers = std::vector<relax::Observer*>;
 
+/// Tells the observers what was done to the start, and returns it as events.
+std::vector<relax::Event> announced(const std::vector<std::string>& notes,
+                                    const setup::Case& vesicle, const problem::State& state,
+                                    const Observers& observers) {
+  std::vector<relax::Event> events;
+  if (notes.empty()) return events;
+  const measure::Diagnostics diagnostics = measure::measure(vesicle.model, state);
+  for (const std::string& note : notes) {
+    events.push_back({0, state.time, note});
+    for (auto* observer : observers) observer->happened({state, {}, diagnostics}, events.back());
+  }
+  return events;
+}
+
+/// The stepper of a run, and what was done to its start.
+struct Beginning {
+  std::unique_ptr<solve::Stepper>& stepper;
+  const std::vector<std::string>& notes;
+};
+
 /// Runs the loop with `observers` behind the progress, and the controllers of run.hpp.
 relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
-                       const Options& options, Observers observers,
-                       std::unique_ptr<solve::Stepper>& stepper) {
+                       const Options& options, Observers observers, const Beginning& beginning) {
   std::optional<io::Progress> progress;
   if (options.progress != nullptr) {
     observers.insert(observers.begin(),
@@ -70,15 +91,22 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };
-  return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
+  auto events = announced(beginning.notes, vesicle, beginning.stepper->state(), observers);
+  auto outcome =
+      relax::relax(beginning.stepper, restart, vesicle.model, config.stop, observers, controllers);
+  outcome.events.insert(outcome.events.begin(), std::make_move_iterator(events.begin()),
+                        std::make_move_iterator(events.end()));
+  return outcome;
 }
 
 Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
                const Options& options) {
   std::unique_ptr<solve::Stepper> stepper;
   std::string failure;
+  FitStart start{vesicle.start};
   try {
-    stepper = make_stepper(config.solver, vesicle.model, vesicle.start);
+    start = near_targets(vesicle, config.solver, options.interrupt);
+    stepper = make_stepper_somehow(config.solver, vesicle.model, start);
   } catch (const SolverError& error) {
     failure = error.what();
   }
@@ -91,7 +119,7 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   }
   relax::Outcome outcome;
   if (stepper) {
-    outcome = compute(config, vesicle, options, std::move(observers), stepper);
+    outcome = compute(config, vesicle, options, std::move(observers), {stepper, start.notes});
   } else {
     outcome = outcome_of_failed_start(vesicle, std::move(failure));
     for (auto* observer : observers)
@@ -104,7 +132,8 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
 
 }  // namespace
 
-setup::Case prepare(const config::RunConfig& config, const Options& options) {
+setup::Case prepare(const config::RunConfig& given, const Options& options) {
+  const config::RunConfig config = config::resolved(given);
   return config::with_places(config, [&] {
     check(config, options);
     return options.resumed.empty() ? setup::make_case(config)
@@ -116,7 +145,8 @@ Result run(const config::RunConfig& config, const Options& options) {
   return run(config, prepare(config, options), options);
 }
 
-Result run(const config::RunConfig& config, const setup::Case& vesicle, const Options& options) {
+Result run(const config::RunConfig& given, const setup::Case& vesicle, const Options& options) {
+  const config::RunConfig config = config::resolved(given);
   return config::with_places(config, [&] {
     check(config, options);
     Result result = relaxed(config, vesicle, options);

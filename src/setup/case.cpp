@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
+#include "vesica/linalg/dense.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/paper/bisection.hpp"
 #include "vesica/problem/scales.hpp"
@@ -78,22 +78,6 @@ double longest_edge_in_interface(const problem::State& state) {
   return longest;
 }
 
-/// The threshold is a velocity in the units of the case; minimisation has none.
-std::optional<std::string> warning_of_units(const config::RunConfig& config, const Case& vesicle) {
-  constexpr double usual = 1e-3;
-  constexpr double unusual = 100;  // times more or less
-  if (config.solver.method == solve::Method::minimize) return std::nullopt;
-  const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
-  const double unit = scales.length / scales.time();
-  const double excess = config.stop.normal_velocity / (usual * unit);
-  if (excess < unusual && excess > 1 / unusual) return std::nullopt;
-  return fmt::format(
-      "stop.normal_velocity = {:g} is {:.1e} k/R_c^3 of this case, so the run may {}: {:.1e} would "
-      "be usual",
-      config.stop.normal_velocity, config.stop.normal_velocity / unit,
-      excess > 1 ? "end far from rest" : "never be at rest", usual * unit);
-}
-
 template <class Options>
 void warn_of_unused(std::string_view table, const Options& options,
                     std::vector<std::string>& warnings) {
@@ -108,7 +92,6 @@ std::vector<std::string> warnings_of(const config::RunConfig& config, const Case
   std::vector<std::string> warnings;
   warn_of_unused("shape", config.shape, warnings);
   if (config.phase) warn_of_unused("phase", *config.phase, warnings);
-  if (auto warning = warning_of_units(config, vesicle)) warnings.push_back(std::move(*warning));
   if (!model.is_two_phase) return warnings;
   const double width = model.material.interface_width.value(vesicle.start.time);
   const double edge = config.adaption.enabled ? 0 : longest_edge_in_interface(vesicle.start);
@@ -134,7 +117,7 @@ bool is_sphere(const mesh::Positions& positions) {
   Eigen::MatrixX4d matrix(positions.rows(), 4);
   matrix << 2 * positions, Eigen::VectorXd::Ones(positions.rows());
   const Eigen::VectorXd squares = positions.rowwise().squaredNorm();
-  const Eigen::Vector4d fit = matrix.colPivHouseholderQr().solve(squares);
+  const Eigen::Vector4d fit = linalg::singular_system(matrix).solve(squares, 1e-12);
   const Eigen::VectorXd distances =
       (positions.rowwise() - fit.head<3>().transpose()).rowwise().norm();
   return distances.maxCoeff() - distances.minCoeff() < 1e-4 * distances.maxCoeff();
@@ -147,18 +130,21 @@ bool stays_near(const model::Schedule& target, double value) {
 }
 
 /// On a sphere the variations of volume and area, 1 and -kappa, are parallel: the two targets are
-/// one. Where the start meets them the area is left free, with a warning; no flow could change one
-/// of them alone.
-void untie_sphere(Case& vesicle) {
+/// one. Where the start meets them the area is left free, with a warning. Where it does not, the run
+/// takes the sphere to another shape first, if it may.
+void untie_sphere(const config::RunConfig& config, Case& vesicle) {
   model::Targets& targets = vesicle.model.targets;
   const auto& [start, is_sphere] = vesicle.origin;
   const auto& volume = targets.of<model::Volume>();
   auto& area = targets.of<model::Area>();
   if (!volume || !area || !is_sphere) return;
-  if (!stays_near(*volume, start.volume()) || !stays_near(*area, start.area())) {
+  const bool is_met = stays_near(*volume, start.volume()) && stays_near(*area, start.area());
+  if (!is_met && config.solver.mend_start) return;
+  if (!is_met) {
     throw ConfigError(
         "constraints.volume and constraints.area: cannot be met from a sphere, which moves them "
-        "only together: start from another shape, an ellipsoid for example");
+        "only together: start from another shape, an ellipsoid for example, or set "
+        "solver.mend_start = true");
   }
   area.reset();
   vesicle.warnings.emplace_back(
@@ -183,7 +169,9 @@ model::Model given_model(const config::RunConfig& config, const model::Measures&
 /// A minimiser knows no time.
 model::Model model_of(const config::RunConfig& config, const model::Measures& start) {
   model::Model model = given_model(config, start);
-  return config.solver.method == solve::Method::minimize ? model.at_rest() : model;
+  return config.solver.method == solve::Method::minimize
+             ? model.frozen(std::numeric_limits<double>::infinity())
+             : model;
 }
 
 void warn_of_schedules(const config::RunConfig& config, Case& vesicle) {
@@ -233,7 +221,7 @@ Case case_of(const config::RunConfig& config, problem::State start,
   vesicle.start = std::move(start);
   vesicle.warnings = warnings_of(config, vesicle);
   warn_of_schedules(config, vesicle);
-  untie_sphere(vesicle);
+  untie_sphere(config, vesicle);
   return vesicle;
 }
 

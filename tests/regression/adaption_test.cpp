@@ -15,9 +15,9 @@
 namespace vesica {
 namespace {
 
-/// Relaxes a case of apps/cases with [adaption] and other options on top.
+/// Relaxes a case of apps/cases by the flow with [adaption], and other options on top.
 test::RelaxationResult run_adaptively(const std::string& name, std::vector<std::string> overrides) {
-  overrides.emplace_back("adaption.enabled=true");
+  overrides.insert(overrides.begin(), {"solver.method=ida", "adaption.enabled=true"});
   const auto config =
       config::read_config(std::string(VESICA_CASES_DIR) + "/" + name + ".toml", overrides);
   const auto vesicle = setup::make_case(config);

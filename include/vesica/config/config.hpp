@@ -57,7 +57,7 @@ struct RunConfig {
   model::MaterialOptions material;
   model::ConstraintOptions constraints;
   Accuracy accuracy = Accuracy::normal;
-  solve::SolverOptions solver;
+  solve::SolverOptions solver{.method = solve::Method::automatic};
   relax::DampingOptions damping;
   relax::StopOptions stop;
   relax::AdaptionOptions adaption;
@@ -96,6 +96,24 @@ struct RunConfig {
 /// Refuses options that break a rule, of their own or between tables. Throws ConfigError
 /// `table.key = value: rule`.
 void check(const RunConfig& config);
+
+/// A method, and in words why it is taken.
+struct MethodChoice {
+  solve::Method method = solve::Method::minimize;
+  std::string reason;
+};
+
+/// Returns the method that `solver.method` names or, where it is "auto", the one for what the case
+/// asks: minimisation for an equilibrium; ida where the way to it counts, that is where the case
+/// has a finite stop.end_time, a material constant or a target that changes in time, an option that
+/// the flow alone uses, or a method of mesh changes that needs it.
+[[nodiscard]] MethodChoice choose_method(const RunConfig& config);
+
+/// Returns `config` with `solver.method` as `choose_method` has it.
+[[nodiscard]] RunConfig resolved(RunConfig config);
+
+/// Sets what a preset sets: `solver.rtol` and `stop.normal_velocity`.
+void apply_accuracy(Accuracy accuracy, RunConfig& config);
 
 /// Returns `message` with the place where the key "table.key" that it begins with was written.
 [[nodiscard]] std::string placed(const RunConfig& config, std::string_view message);

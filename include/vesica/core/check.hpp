@@ -74,17 +74,23 @@ template <class Options>
   return options;
 }
 
+/// Calls visit(field, value) for the fields that differ from those of `usual`.
+template <class Options, class Visit>
+void for_each_changed(const Options& options, const Options& usual, const Visit& visit) {
+  std::vector<const void*> values;
+  Options::fields(usual, [&](const Field&, const auto& value) { values.push_back(&value); });
+  std::size_t i = 0;
+  Options::fields(options, [&]<class T>(const Field& field, const T& value) {
+    if (!(value == *static_cast<const T*>(values[i++]))) visit(field, value);
+  });
+}
+
 /// Calls visit(field, value) for the fields that differ from their defaults but are not used by the
 /// alternative.
 template <class Options, class Alternative, class Visit>
 void for_each_unused(const Options& options, Alternative chosen, const Visit& visit) {
-  const Options defaults;
-  std::vector<const void*> values;
-  Options::fields(defaults, [&](const Field&, const auto& value) { values.push_back(&value); });
-  std::size_t i = 0;
-  Options::fields(options, [&]<class T>(const Field& field, const T& value) {
-    const bool is_changed = !(value == *static_cast<const T*>(values[i++]));
-    if (is_changed && !field.used_by.include(chosen)) visit(field, value);
+  for_each_changed(options, Options{}, [&](const Field& field, const auto& value) {
+    if (!field.used_by.include(chosen)) visit(field, value);
   });
 }
 

@@ -50,9 +50,9 @@ struct Model {
   [[nodiscard]] bool jumps_at(double time) const;
   /// Returns the time of the last kink or jump; minus infinity when nothing changes.
   [[nodiscard]] double rests_after() const;
-  /// Returns the model that stays what this one becomes: all schedules constant at their last
-  /// values.
-  [[nodiscard]] Model at_rest() const;
+  /// Returns the model that stays what this one is at a time: all schedules constant. Infinity gives
+  /// the model that this one becomes.
+  [[nodiscard]] Model frozen(double time) const;
 };
 
 /// A schedule of a model and its key in a case file, as in "material.line_tension".

@@ -66,6 +66,7 @@ enum class RunStatus {
   neck_closes,
   budding,
   self_intersection,
+  unresolved,
   interrupted,
   numerical_failure
 };
@@ -78,7 +79,7 @@ namespace vesica {
 template <>
 struct EnumNames<relax::RunStatus> {
   using enum relax::RunStatus;
-  static constexpr std::array<std::pair<relax::RunStatus, std::string_view>, 10> names{
+  static constexpr std::array<std::pair<relax::RunStatus, std::string_view>, 11> names{
       {{converged, "converged"},
        {time_limit, "time limit"},
        {end_time, "time limit"},
@@ -87,6 +88,7 @@ struct EnumNames<relax::RunStatus> {
        {neck_closes, "neck closes"},
        {budding, "budding"},
        {self_intersection, "self-intersection"},
+       {unresolved, "unresolved"},
        {interrupted, "interrupted"},
        {numerical_failure, "numerical failure"}}};
 };

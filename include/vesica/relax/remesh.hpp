@@ -25,8 +25,8 @@ namespace vesica::relax {
                                                     double max_nodes);
 
 /// Returns the state on a new mesh of the same surface: positions, order parameter, curvature and
-/// rates interpolated, time, damping and multipliers kept, V, A and int h(c) restored to what they
-/// were. The new mesh has `remesh.max_nodes` nodes at most, unless the surface cannot do with so
+/// rates interpolated, time, damping and multipliers kept, V, A, int h(c) and what else the model constrains
+/// restored to what they were where that does the mesh no harm. The new mesh has `remesh.max_nodes` nodes at most, unless the surface cannot do with so
 /// few. Absent when the new mesh has a fold or no quality, or a conformal image less than the old
 /// mesh, since then the old one is better, and when bisection finds nothing to change.
 [[nodiscard]] std::optional<problem::State> remeshed(const model::Model& model,

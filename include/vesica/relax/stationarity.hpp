@@ -27,9 +27,8 @@ struct StopOptions {
   static void fields(Self& self, Visitor&& visit) {
     using enum solve::Method;
     constexpr Users flows(ida, semi_implicit);
-    visit(Field{"normal_velocity", "length/time",
-                "converged below it: ||v_nu|| / R_c, rigid motion removed; in the units of the "
-                "case, 1e-3 k/R_c^3 is usual",
+    visit(Field{"normal_velocity", "k/R_c^3",
+                "converged below it: ||v_nu|| / R_c, rigid motion removed; k is that of phase 1",
                 Rule::positive, flows},
           self.normal_velocity);
     visit(Field{"constraint", "-", "converged below it: relative errors of the constraints",
@@ -64,7 +63,7 @@ struct StopOptions {
 /// The stopping criterion and the limits of a run. A state is an equilibrium when all of these
 /// hold:
 ///
-/// - ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity;
+/// - ||v_nu|| / R_c, best-fit rigid motion removed, is below normal_velocity in k/R_c^3;
 /// - no multiplier, in k/R_c^3 (volume) or k/R_c^2 (area, phase), changed by more than
 ///   multiplier_change times the largest (or 1, when all are small) in any of the last rest_steps;
 /// - every relative constraint error is below constraint;
@@ -80,13 +79,17 @@ class Stationarity {
   [[nodiscard]] bool is_at_rest(const StepView& view);
   /// Forgets the last steps after a change of the mesh: the multipliers have to rest anew.
   void forget_steps();
-  /// Returns ||v_nu|| / R_c, best-fit rigid motion removed [length/time].
-  [[nodiscard]] static double normal_velocity(const measure::Diagnostics& diagnostics);
+  /// Returns ||v_nu|| / R_c, best-fit rigid motion removed, in k/R_c^3 [-].
+  [[nodiscard]] double normal_velocity(const measure::Diagnostics& diagnostics) const;
   /// Tells whether the velocity, or for a method that reports it the distance to the minimum, is
   /// below its threshold.
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
   /// Tells whether every relative error of the constraints is below its threshold.
   [[nodiscard]] bool meets_constraints(const measure::Diagnostics& diagnostics) const;
+  /// Returns the stop of a state at rest whose mesh is too coarse for its shape, so that it is no
+  /// result: normals of neighbouring sub-triangles differ by more than 53 degrees. Absent when the
+  /// mesh resolves the shape.
+  [[nodiscard]] static std::optional<Stop> unresolved(const StepView& view);
   /// Returns the stop for the limit that is reached; absent when none is.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
 

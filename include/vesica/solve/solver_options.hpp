@@ -12,8 +12,9 @@
 namespace vesica::solve {
 
 /// Method that solves the equations: adaptive flow with IDA, the semi-implicit scheme of the paper,
-/// or minimisation of the discrete energy.
-enum class Method { ida, semi_implicit, minimize };
+/// or minimisation of the discrete energy. The automatic choice stands in configurations alone:
+/// config::choose_method makes it, and no stepper takes it.
+enum class Method { automatic, ida, semi_implicit, minimize };
 /// Equations of the flow: the weak form of the paper, or the gradient flow of the discrete energy.
 enum class Scheme { paper, variational };
 /// How Newton's linear systems are solved: by GMRES with the factors as preconditioner, or
@@ -30,8 +31,11 @@ namespace vesica {
 template <>
 struct EnumNames<solve::Method> {
   using enum solve::Method;
-  static constexpr std::array<std::pair<solve::Method, std::string_view>, 3> names{
-      {{ida, "ida"}, {semi_implicit, "semi-implicit"}, {minimize, "minimize"}}};
+  static constexpr std::array<std::pair<solve::Method, std::string_view>, 4> names{
+      {{automatic, "auto"},
+       {ida, "ida"},
+       {semi_implicit, "semi-implicit"},
+       {minimize, "minimize"}}};
 };
 template <>
 struct EnumNames<solve::Scheme> {
@@ -77,13 +81,15 @@ struct SolverOptions {
   bool final_constraint_solve = true;
   bool polish = false;
   bool leave_saddles = true;
+  bool mend_start = true;
   int threads = 0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     using enum Method;
     visit(Field{"method", "-",
-                "ida (adaptive flow), semi-implicit (the paper's own) or minimize (Ceres)"},
+                "auto (minimize for an equilibrium, ida where time matters), ida (adaptive flow), "
+                "semi-implicit (the paper's own) or minimize (Ceres)"},
           self.method);
     visit(Field{"scheme", "-",
                 "paper (weak form of Problem 3.1) or variational (gradient flow of the discrete "
@@ -151,6 +157,10 @@ struct SolverOptions {
                 "from a saddle of the energy, go on along its lowest mode; false: end there",
                 Rule::any, Users(minimize)},
           self.leave_saddles);
+    visit(Field{"mend_start", "-",
+                "take a start that is far from its targets to them, and a rough one to where the "
+                "flow can begin; false: begin from the start as it is"},
+          self.mend_start);
     visit(Field{"threads", "-", "threads of the assembly; 0: all cores", Rule::non_negative},
           self.threads);
   }

@@ -111,6 +111,7 @@ TEST(Verdict, StatusHasTheNamesOfTheInterface) {
   EXPECT_EQ(name_of(RunStatus::neck_closes), "neck closes");
   EXPECT_EQ(name_of(RunStatus::budding), "budding");
   EXPECT_EQ(name_of(RunStatus::self_intersection), "self-intersection");
+  EXPECT_EQ(name_of(RunStatus::unresolved), "unresolved");
   EXPECT_EQ(name_of(RunStatus::interrupted), "interrupted");
   EXPECT_EQ(name_of(RunStatus::numerical_failure), "numerical failure");
 }
@@ -129,6 +130,7 @@ TEST(Verdict, ExitStatusTellsHowTheRunEnded) {
   EXPECT_EQ(status(RunStatus::neck_closes), 1);
   EXPECT_EQ(status(RunStatus::budding), 1);
   EXPECT_EQ(status(RunStatus::self_intersection), 1);
+  EXPECT_EQ(status(RunStatus::unresolved), 1);
   EXPECT_EQ(status(RunStatus::numerical_failure), 3);
   EXPECT_EQ(status(RunStatus::interrupted, SIGINT), 130);
   EXPECT_EQ(status(RunStatus::interrupted, SIGTERM), 143);

@@ -29,12 +29,13 @@ class StationarityTest : public ControllerTest {
   StopOptions options_;
 };
 
-TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdTimesTheRadius) {
+/// The L2 norm over R_c = 2 is to be compared with k / R_c^3 = 1 / 8.
+TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdInNaturalUnits) {
   const Stationarity criterion(options_, model_);
-  (void)view(1.9e-3, 0);
-  EXPECT_NEAR(Stationarity::normal_velocity(diagnostics_), 0.95e-3, 1e-15);
+  (void)view(2 * 0.95e-3 / 8, 0);
+  EXPECT_NEAR(criterion.normal_velocity(diagnostics_), 0.95e-3, 1e-15);
   EXPECT_TRUE(criterion.meets_velocity({state_, report_, diagnostics_}));
-  (void)view(2.1e-3, 0);
+  (void)view(2 * 1.05e-3 / 8, 0);
   EXPECT_FALSE(criterion.meets_velocity({state_, report_, diagnostics_}));
 }
 

@@ -111,10 +111,10 @@ TEST_F(RunTest, WithoutFilesReturnsTheEquilibriumAndWritesNothing) {
 }
 
 TEST_F(RunTest, ReturnsTheWarningsOfTheCase) {
-  config_.stop.normal_velocity = 1;
+  config_.shape.number_of_tips = 4;
   const Result result = run(config_, without_files_);
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("may end far from rest"), std::string::npos);
+  EXPECT_NE(result.warnings[0].find("shape.number_of_tips means nothing"), std::string::npos);
 }
 
 TEST_F(RunTest, WritesFilesThatReadBackAsItsResult) {

@@ -27,22 +27,6 @@ std::string warnings_of(config::RunConfig config, double length) {
 
 TEST(CaseWarnings, AreSilentAboutAUsualCase) { EXPECT_EQ(warnings_of({}, 1), ""); }
 
-/// R_c^3 = 1.4403 of the ellipsoid of length 1.
-TEST(CaseWarnings, TellWhatToSetWhereTheUnitsMakeTheThresholdOdd) {
-  EXPECT_NE(warnings_of({}, 1e-2).find("so the run may never be at rest: 6.9e+02 would be usual"),
-            std::string::npos)
-      << warnings_of({}, 1e-2);
-  EXPECT_NE(warnings_of({}, 1e2).find("so the run may end far from rest: 6.9e-10 would be usual"),
-            std::string::npos)
-      << warnings_of({}, 1e2);
-  config::RunConfig config;
-  config.stop.normal_velocity = 7e-10;
-  EXPECT_EQ(warnings_of(config, 1e2), "");
-  config::RunConfig minimisation;
-  minimisation.solver.method = solve::Method::minimize;
-  EXPECT_EQ(warnings_of(minimisation, 1e2), "");
-}
-
 TEST(CaseWarnings, NameOptionsOfAnotherKind) {
   config::RunConfig config;
   config.shape.kind = shapes::ShapeKind::capsule;

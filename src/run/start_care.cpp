@@ -1,0 +1,192 @@
+#include "start_care.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "minimise/mesh_care.hpp"
+#include "minimise/target_approach.hpp"
+#include "vesica/adapt/size_field.hpp"
+#include "vesica/core/error.hpp"
+#include "vesica/measure/diagnostics.hpp"
+#include "vesica/relax/remesh.hpp"
+#include "vesica/run/make_stepper.hpp"
+
+namespace vesica::run {
+namespace {
+
+constexpr double far_from_targets = 0.02;  // relative
+constexpr double largest_part = 0.1;       // of a way to the targets
+constexpr int steps_of_a_part = 4;
+constexpr double good_quality = 0.4;
+constexpr double good_area_ratio = 8;
+constexpr int steps_of_a_try = 2;  // of the minimiser
+constexpr int max_tries = 5;
+
+/// Some outer iterations from `start`, at its time; returns how many, 0 where none is possible.
+int smooth(const solve::SolverOptions& options, const model::Model& model, problem::State& start,
+           int steps) {
+  const double time = start.time;
+  solve::SolverOptions minimiser = options;
+  minimiser.method = solve::Method::minimize;
+  int done = 0;
+  try {
+    const auto stepper = make_stepper(minimiser, model, start);
+    while (done < steps && stepper->step(0).status == solve::StepStatus::accepted) ++done;
+    start = stepper->state();
+  } catch (const SolverError&) {
+    return 0;
+  }
+  start.time = time;
+  start.rates = {mesh::Positions::Zero(start.values.positions.rows(), 3),
+                 Eigen::VectorXd::Zero(start.values.positions.rows()),
+                 Eigen::VectorXd::Zero(start.values.order_parameter.size()),
+                 {}};
+  return done;
+}
+
+std::string smoothing_text(std::string_view purpose, int steps) {
+  return fmt::format("the start was too rough {}: {} steps of minimisation made it smooth", purpose,
+                     steps);
+}
+
+/// The way of a start to its targets: in parts, between which the shape relaxes a little.
+class Way {
+ public:
+  Way(const model::Model& model, const solve::SolverOptions& options,
+      const std::atomic<int>* interrupt)
+      : model_(model), options_(options), interrupt_(interrupt) {}
+
+  /// Takes the start there; where it is too rough for that, after some steps of minimisation.
+  int go_from_rough(FitStart& start, bool is_sphere) {
+    int steps = 0;
+    for (int attempt = 0;; ++attempt) {
+      try {
+        problem::State state = start.state;
+        const int stages = go(state, is_sphere);
+        start.state = std::move(state);
+        if (steps > 0) start.notes.push_back(smoothing_text("to be taken to its targets", steps));
+        return stages;
+      } catch (const SolverError&) {
+        if (attempt == max_tries) throw;
+        const int more = smooth(options_, model_, start.state, steps_of_a_try);
+        if (more == 0) throw;
+        steps += more;
+      }
+    }
+  }
+
+  /// Takes the state there, or as far as it comes before an interrupt; returns the number of
+  /// changes of the shape. Throws SolverError when the targets are not reached.
+  int go(problem::State& state, bool is_sphere) {
+    const model::Measures first = measure::measure(model_, state).measures;
+    const double error = minimise::largest_target_error(model_, state);
+    const int parts = std::max(1, static_cast<int>(std::ceil(error / largest_part)));
+    int stages = 0;
+    for (int part = 1; part <= parts && !is_interrupted(); ++part) {
+      const model::Model there = between(first, static_cast<double>(part) / parts);
+      minimise::ApproachOptions how{options_.threads, is_sphere && part == 1, {}};
+      how.may_go_on = [this] { return !is_interrupted(); };
+      auto approach = minimise::approach_targets(there, std::move(state), how);
+      stages += approach.stages;
+      if (!approach.is_done && !is_interrupted()) throw SolverError(failure(error, approach));
+      state = std::move(approach.state);
+      if (part < parts) {
+        (void)smooth(options_, there, state, steps_of_a_part);
+        look_after_mesh(there, state);
+      }
+    }
+    return stages;
+  }
+
+ private:
+  [[nodiscard]] bool is_interrupted() const { return interrupt_ != nullptr && *interrupt_ != 0; }
+
+  /// The model with targets between what the start has and those of the case.
+  [[nodiscard]] model::Model between(const model::Measures& first, double fraction) const {
+    model::Model result = model_;
+    for (std::size_t place = 0; place < result.targets.values.size(); ++place) {
+      auto& target = result.targets[place];
+      if (target) target = std::lerp(first.values[place].value(), target->first(), fraction);
+    }
+    return result;
+  }
+
+  /// A new mesh of about as many nodes where the old one has become bad.
+  static void look_after_mesh(const model::Model& model, problem::State& state) {
+    const auto condition = minimise::mesh_condition(state.surface());
+    if (condition.quality > good_quality && condition.area_ratio < good_area_ratio) return;
+    const double num_nodes = state.triangulation->num_nodes();
+    adapt::SizeFieldOptions sizes;
+    const double area = measure::measure(model, state).measures.area();
+    const double of_an_element = area / state.triangulation->num_triangles();
+    sizes.max_size = std::sqrt(4 / std::sqrt(3.0) * of_an_element);  // equilateral
+    auto even =
+        relax::remeshed(model, state, {sizes, num_nodes, "the start is far from its targets"});
+    if (even) state = std::move(*even);
+  }
+
+  [[nodiscard]] static std::string failure(double error, const minimise::Approach& approach) {
+    return fmt::format(
+        "the start is off its targets by {:.2g} (relative), and a part of the way is left by "
+        "{:.2g} "
+        "after {} changes of the shape: another start, a finer mesh or a target that is \"free\" "
+        "may help, and solver.mend_start = false begins from it as it is",
+        error, approach.error, approach.stages);
+  }
+
+  const model::Model& model_;
+  const solve::SolverOptions& options_;
+  const std::atomic<int>* interrupt_;
+};
+
+}  // namespace
+
+FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& options,
+                      const std::atomic<int>* interrupt) {
+  FitStart result{vesicle.start};
+  if (!options.mend_start) return result;
+  const model::Model model = vesicle.model.frozen(vesicle.start.time);
+  const double error = minimise::largest_target_error(model, vesicle.start);
+  if (!(error > far_from_targets)) return result;
+  const double scale = minimise::scale_to_targets(model, result.state);
+  Way way(model, options, interrupt);
+  const int stages = way.go_from_rough(result, vesicle.origin.is_sphere);
+  const std::string scaling =
+      std::abs(scale - 1) < 1e-4
+          ? ""
+          : fmt::format("all lengths were multiplied by {:.6g}, then ", scale);
+  result.notes.push_back(fmt::format(
+      "the start was off its targets by {:.2g} (relative): {}its shape was changed in {} stages "
+      "until they were met",
+      error, scaling, stages));
+  return result;
+}
+
+std::unique_ptr<solve::Stepper> make_stepper_somehow(const solve::SolverOptions& options,
+                                                     const model::Model& model, FitStart& start) {
+  std::string trouble;
+  const bool is_flow = options.method != solve::Method::minimize;
+  int steps = 0;
+  for (int attempt = 0;; ++attempt) {
+    try {
+      auto stepper = make_stepper(options, model, start.state);
+      if (steps > 0) {
+        start.notes.push_back(smoothing_text(fmt::format("for the flow ({})", trouble), steps));
+      }
+      return stepper;
+    } catch (const SolverError& error) {
+      if (!is_flow || !options.mend_start || attempt == max_tries) throw;
+      if (trouble.empty()) trouble = error.what();
+      const int more = smooth(options, model.frozen(start.state.time), start.state, steps_of_a_try);
+      if (more == 0) throw;
+      steps += more;
+    }
+  }
+}
+
+}  // namespace vesica::run

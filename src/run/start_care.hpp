@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vesica/setup/case.hpp"
+#include "vesica/solve/stepper.hpp"
+
+namespace vesica::run {
+
+/// A start that was made fit for its run, and in sentences what was done to it.
+struct FitStart {
+  problem::State state;
+  std::vector<std::string> notes{};
+};
+
+/// Takes the start of a case to its targets where it is off by more than 0.02 of them, by
+/// minimise::approach_targets. `interrupt` as in Options. Throws SolverError when the targets are
+/// not reached.
+[[nodiscard]] FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& options,
+                                    const std::atomic<int>* interrupt);
+
+/// Makes the stepper of a run. Where a flow finds no initial values since the start is too rough,
+/// some steps of minimisation go first, with material and targets as they are at the start. Throws
+/// SolverError when that does not help.
+[[nodiscard]] std::unique_ptr<solve::Stepper> make_stepper_somehow(
+    const solve::SolverOptions& options, const model::Model& model, FitStart& start);
+
+}  // namespace vesica::run

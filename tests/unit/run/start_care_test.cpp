@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "vesica/fem/recovery.hpp"
+#include "vesica/measure/diagnostics.hpp"
+#include "vesica/mesh/redistribute.hpp"
+#include "vesica/problem/normal_graph.hpp"
+#include "vesica/run/run.hpp"
+
+namespace vesica::run {
+namespace {
+
+const Options without_files{.writes_files = false};
+
+config::RunConfig prolate(int resolution) {
+  config::RunConfig config;
+  config.shape.kind = shapes::ShapeKind::ellipsoid;
+  config.shape.semi_axes = {1.4, 1, 1};
+  config.shape.resolution = resolution;
+  return config;
+}
+
+/// The case with its nodes displaced along the normals by noise of this part of an edge.
+setup::Case noisy(const config::RunConfig& config, double noise) {
+  setup::Case vesicle = setup::make_case(config);
+  auto& positions = vesicle.start.values.positions;
+  const auto graph = problem::make_normal_graph(*vesicle.start.triangulation, positions);
+  const double edge = 1.0 / config.shape.resolution;
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) += noise * edge * uniform(engine) * graph.directions.row(i);
+  return vesicle;
+}
+
+class RoughStart : public ::testing::TestWithParam<double> {};
+
+TEST_P(RoughStart, IsMadeSmoothForTheFlowUnlessTheCaseForbidsIt) {
+  config::RunConfig config = prolate(4);
+  config.solver.method = solve::Method::ida;
+  config.constraints.reduced_volume = 0.9;
+  const setup::Case vesicle = noisy(config, GetParam());
+  const Result result = run(config, vesicle, without_files);
+  EXPECT_EQ(result.verdict.outcome.status, relax::RunStatus::converged)
+      << result.verdict.outcome.reason;
+  const auto& events = result.verdict.outcome.events;
+  ASSERT_FALSE(events.empty());
+  EXPECT_NE(events.back().what.find("too rough for the flow"), std::string::npos);
+  config.solver.mend_start = false;
+  const Result refused = run(config, vesicle, without_files);
+  EXPECT_EQ(refused.verdict.outcome.status, relax::RunStatus::numerical_failure);
+}
+
+INSTANTIATE_TEST_SUITE_P(Noise, RoughStart, ::testing::Values(0.1, 0.3));
+
+/// The prolate of v = 0.8 is the shape of least energy there.
+TEST(FarStart, OfASphereEndsAsTheProlate) {
+  config::RunConfig config;
+  config.shape.kind = shapes::ShapeKind::sphere;
+  config.shape.resolution = 4;
+  config.constraints.reduced_volume = 0.8;
+  const Result sphere = run(config, without_files);
+  ASSERT_EQ(sphere.verdict.outcome.status, relax::RunStatus::converged)
+      << sphere.verdict.outcome.reason;
+  EXPECT_NE(sphere.verdict.outcome.events.at(0).what.find("off its targets"), std::string::npos);
+  config::RunConfig direct = prolate(4);
+  direct.shape.semi_axes = {1.9, 0.9, 0.9};
+  direct.constraints.reduced_volume = 0.8;
+  const Result expected = run(direct, without_files);
+  EXPECT_NEAR(sphere.verdict.outcome.diagnostics.energy.total() /
+                  expected.verdict.outcome.diagnostics.energy.total(),
+              1, 2e-3);
+}
+
+TEST(FarStart, IsLeftAsItIsWhereTheCaseSaysSo) {
+  config::RunConfig config = prolate(3);
+  config.solver.mend_start = false;
+  config.constraints.reduced_volume = 0.85;
+  const Result result = run(config, without_files);
+  for (const auto& event : result.verdict.outcome.events)
+    EXPECT_EQ(event.what.find("off its targets"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vesica::run
