@@ -76,6 +76,7 @@ int main() {
   config.shape.kind = shapes::ShapeKind::ellipsoid;
   config.shape.semi_axes = {2, 0.7, 0.7};
   config.shape.resolution = 4;
+  config.solver.method = solve::Method::ida;  // we ask for times, so we follow the flow
 
   // What is not set keeps its default: volume and area are held at what the start has.
   //

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,6 @@
 
 #include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
-#include "vesica/linalg/dense.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/paper/bisection.hpp"
 #include "vesica/problem/scales.hpp"
@@ -117,7 +117,8 @@ bool is_sphere(const mesh::Positions& positions) {
   Eigen::MatrixX4d matrix(positions.rows(), 4);
   matrix << 2 * positions, Eigen::VectorXd::Ones(positions.rows());
   const Eigen::VectorXd squares = positions.rowwise().squaredNorm();
-  const Eigen::Vector4d fit = linalg::singular_system(matrix).solve(squares, 1e-12);
+  const Eigen::Vector4d fit =
+      (matrix.transpose() * matrix).inverse() * (matrix.transpose() * squares);
   const Eigen::VectorXd distances =
       (positions.rowwise() - fit.head<3>().transpose()).rowwise().norm();
   return distances.maxCoeff() - distances.minCoeff() < 1e-4 * distances.maxCoeff();
