@@ -222,6 +222,12 @@ void check_topology(const config::RunConfig& config, const mesh::Triangulation& 
   }
 }
 
+void check_files(const config::RunConfig& config) {
+  if (config.shape.kind == shapes::ShapeKind::file) check_file(config, config.shape.path);
+  if (config.phase && config.phase->kind == phase::PhaseKind::file)
+    check_file(config, config.phase->path);
+}
+
 }  // namespace
 
 Case case_of(const config::RunConfig& config, problem::State start,
@@ -238,13 +244,16 @@ Case case_of(const config::RunConfig& config, problem::State start,
 }
 
 Case make_case(const config::RunConfig& config) {
+  check_files(config);
   const mesh::Surface surface = shapes::make_shape(config.shape);
   problem::State start = state_at_rest(surface);
   if (config.phase) {
     add_order_parameter(start,
                         order_parameter_of(config, surface, model_of(config, measures_of(start))));
   }
-  return case_of(config, std::move(start));
+  Case vesicle = case_of(config, std::move(start));
+  vesicle.warnings.insert(vesicle.warnings.begin(), config.notes.begin(), config.notes.end());
+  return vesicle;
 }
 
 }  // namespace vesica::setup

@@ -110,8 +110,9 @@ struct PhaseOptions {
                 Rule::non_negative, Users(noise)},
           self.amplitude);
     visit(Field{"seed", "-", "seed of the random numbers", Rule::any, Users(noise)}, self.seed);
-    visit(Field{"path", "-", "one value a node, in node order; # starts a comment", Rule::any,
-                Users(file)},
+    visit(Field{"path", "-",
+                "one value a node, in node order; # starts a comment; relative to the case file",
+                Rule::any, Users(file)},
           self.path);
     visit(Field{"match_target", "-",
                 "shift the level so that int h(c) meets its target at the start"},

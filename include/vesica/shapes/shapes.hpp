@@ -113,8 +113,8 @@ struct ShapeOptions {
     visit(Field{"tip_width", "rad", "angular width of a tip", Rule::positive, Users(tips)},
           self.tip_width);
     visit(Field{"path", "-",
-                "closed triangulated surface, .off or .obj; relative to the current folder",
-                Rule::any, Users(file)},
+                "closed triangulated surface, .off or .obj; relative to the case file", Rule::any,
+                Users(file)},
           self.path);
     visit(Field{"flip", "-", "turn a surface that is inside out", Rule::any, Users(file)},
           self.flip);
