@@ -198,11 +198,11 @@ void warn_of_schedules(const config::RunConfig& config, Case& vesicle) {
   }
 }
 
-Eigen::VectorXd phase_of(const config::RunConfig& config, const shapes::Shape& shape,
+phase::PhaseStart phase_of(const config::RunConfig& config, const shapes::Shape& shape,
                            const model::Model& model) {
   const auto& target = model.targets.of<model::PhaseDifference>();
-  return phase::initial_phase(*config.phase, shape.surface, model.material.interface_width.value(0),
-                            target ? std::optional(target->value(0)) : std::nullopt);
+  return phase::start_phase(*config.phase, shape.surface, model.material.interface_width.value(0),
+                            target ? std::optional(target->value(0)) : std::nullopt, shape.fields);
 }
 
 void check_topology(const config::RunConfig& config, const mesh::Triangulation& triangulation) {
@@ -254,7 +254,9 @@ Case make_case(const config::RunConfig& config) {
   add_notes(shape.notes);
   problem::State start = state_at_rest(shape.surface);
   if (config.phase) {
-    add_order_parameter(start, phase_of(config, shape, model_of(config, measures_of(start))));
+    phase::PhaseStart phase = phase_of(config, shape, model_of(config, measures_of(start)));
+    add_order_parameter(start, std::move(phase.order_parameter));
+    add_notes(phase.notes);
   }
   Case vesicle = case_of(config, std::move(start));
   vesicle.warnings.insert(vesicle.warnings.begin(), notes.begin(), notes.end());
