@@ -9,6 +9,8 @@ find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(METIS REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # The SUNDIALS package asks for OpenMP on behalf of components that are not used here, and Clang has OpenMP only with
 # libomp installed. An empty target answers the question.
@@ -39,6 +41,8 @@ target_link_libraries(
             tomlplusplus::tomlplusplus
             nlohmann_json::nlohmann_json
             METIS::METIS
+            pugixml::pugixml
+            ZLIB::ZLIB
             SUNDIALS::generic
             SUNDIALS::ida
             SUNDIALS::kinsol

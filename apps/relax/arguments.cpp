@@ -14,6 +14,9 @@ void add_options(CLI::App& app, Arguments& arguments, std::string& rtol, bool& w
   app.add_option("--resume", arguments.resumed,
                  "start from the final state of the run in this folder; time goes on")
       ->type_name("DIR");
+  app.add_option("--write-start", arguments.start_file,
+                 "write the start as .vtu, .ply or .obj and run nothing")
+      ->type_name("FILE");
   app.add_option("--rtol", rtol, "relative tolerance of the time integration: solver.rtol")
       ->type_name("X");
   app.add_flag("--template", wants_template,

@@ -12,7 +12,8 @@ namespace vesica {
 struct Arguments {
   std::string case_file;
   RunOptions options;
-  std::string resumed;  ///< folder of the run to go on with; empty: none
+  std::string start_file;  ///< the start is written here, and nothing runs; empty: a run
+  std::string resumed;     ///< folder of the run to go on with; empty: none
 };
 
 /// Arguments of a run, or the exit status when there is nothing to run (help, version, template,

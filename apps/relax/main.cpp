@@ -3,6 +3,7 @@
 #include "arguments.hpp"
 #include "common/program.hpp"
 #include "vesica/config/config.hpp"
+#include "vesica/io/surface_writer.hpp"
 #include "vesica/io/verdict_files.hpp"
 #include "vesica/relax/verdict.hpp"
 #include "vesica/run/run.hpp"
@@ -10,6 +11,22 @@
 
 namespace vesica {
 namespace {
+
+/// Neither looks at the output folder nor makes it.
+int write_start(const config::RunConfig& config, const Arguments& arguments) {
+  run::Options options;
+  options.writes_files = false;
+  options.resumed = arguments.resumed;
+  const setup::Case vesicle = run::prepare(config, options);
+  print_warnings(vesicle.warnings);
+  const problem::State& start = vesicle.start;
+  io::write_surface(arguments.start_file, start.surface(), io::fields_of(start));
+  if (!arguments.options.is_quiet) {
+    std::cout << arguments.start_file << ": " << start.triangulation->num_nodes() << " nodes, "
+              << start.triangulation->num_triangles() << " triangles\n";
+  }
+  return 0;
+}
 
 int relax_case(const config::RunConfig& config, const Arguments& arguments) {
   run::Options options = library_options(arguments.options, arguments.case_file);
@@ -40,6 +57,9 @@ int main(int argc, char** argv) {
   return run_program("vesica-relax", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     if (!command_line.arguments) return command_line.status;
-    return relax_case(read_config(*command_line.arguments), *command_line.arguments);
+    const Arguments& arguments = *command_line.arguments;
+    const config::RunConfig config = read_config(arguments);
+    return arguments.start_file.empty() ? relax_case(config, arguments)
+                                        : write_start(config, arguments);
   });
 }

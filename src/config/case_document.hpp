@@ -19,6 +19,10 @@ class CaseDocument {
   [[nodiscard]] const toml::table& root() const { return root_; }
   /// "case.toml:3:1", or "--set solver.rtol=1" for an override. `key` is "table.key".
   [[nodiscard]] std::string place(const std::string& key, const toml::source_region& region) const;
+  /// True when an override wrote "table.key".
+  [[nodiscard]] bool is_overridden(const std::string& key) const {
+    return overridden_.count(key) > 0;
+  }
 
  private:
   void apply(const std::string& text);

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
 #include "config/case_document.hpp"
+#include "config/case_paths.hpp"
 #include "config/nearest_name.hpp"
 #include "config/option_values.hpp"
 #include "core/refuse.hpp"
@@ -166,11 +168,7 @@ void check_adaption(solve::Method method, relax::MeshMethod mesh_method) {
          fmt::format("needs solver.method = \"minimize\" or \"ida\", not \"{}\"", name_of(method)));
 }
 
-}  // namespace
-
-RunConfig read_config_text(std::string_view text, std::string_view name,
-                           std::span<const std::string> overrides) {
-  const CaseDocument document(text, name, overrides);
+RunConfig read_document(const CaseDocument& document) {
   RunConfig config;
   read_accuracy(document, config);
   apply_method(document, config);
@@ -182,6 +180,13 @@ RunConfig read_config_text(std::string_view text, std::string_view name,
   config.places = places_of(document);
   with_places(config, [&config] { check(config); });
   return config;
+}
+
+}  // namespace
+
+RunConfig read_config_text(std::string_view text, std::string_view name,
+                           std::span<const std::string> overrides) {
+  return read_document(CaseDocument(text, name, overrides));
 }
 
 void check(const RunConfig& given) {
@@ -210,7 +215,10 @@ RunConfig read_config(const std::string& path, std::span<const std::string> over
     throw IoError(fmt::format("{}: cannot be read ({})", path,
                               errno == 0 ? "empty file" : std::generic_category().message(errno)));
   }
-  return read_config_text(std::move(text).str(), path, overrides);
+  const CaseDocument document(std::move(text).str(), path, overrides);
+  RunConfig config = read_document(document);
+  locate_files(document, std::filesystem::path(path).parent_path(), config);
+  return config;
 }
 
 }  // namespace vesica::config

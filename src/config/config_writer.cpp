@@ -3,6 +3,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "config/case_paths.hpp"
 #include "config/option_values.hpp"
 #include "vesica/config/config.hpp"
 #include "vesica/core/check.hpp"
@@ -91,7 +92,8 @@ void write_template(std::ostream& out) {
   });
 }
 
-std::string to_toml(const RunConfig& config) {
+std::string to_toml(const RunConfig& given) {
+  const RunConfig config = with_absolute_paths(given);
   std::ostringstream out;
   out << "title = " << toml_text(config.title) << '\n';
   RunConfig::tables(config,

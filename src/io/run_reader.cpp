@@ -55,20 +55,18 @@ class FrameReader {
   explicit FrameReader(const hdf5::ReadableFile& file) : file_(file) {
     if (file.count("/frames") == 0) file.refuse("/frames", "is empty");
   }
-  [[nodiscard]] problem::State last() const { return frame(num_frames() - 1); }
+  [[nodiscard]] problem::State last() const { return at(num_frames() - 1); }
   /// A run that broke off may have done so within its last frame.
   [[nodiscard]] problem::State last_complete() const {
     if (num_frames() == 1) return last();
     try {
       return last();
     } catch (const IoError&) {
-      return frame(num_frames() - 2);
+      return at(num_frames() - 2);
     }
   }
-
- private:
   [[nodiscard]] std::size_t num_frames() const { return file_.count("/frames"); }
-  [[nodiscard]] problem::State frame(std::size_t index) const {
+  [[nodiscard]] problem::State at(std::size_t index) const {
     const std::string group = fmt::format("/frames/{:06}", index);
     problem::State state;
     state.time = file_.number_attribute(group, "time");
@@ -89,6 +87,7 @@ class FrameReader {
     return state;
   }
 
+ private:
   [[nodiscard]] mesh::Positions positions(const std::string& path) const {
     const std::vector<double> values = file_.numbers(path);
     if (values.size() % 3 != 0) file_.refuse(path, "must have three columns");
@@ -144,6 +143,21 @@ int signal_of(const hdf5::ReadableFile& file) {
 
 compare::EnergyHistory read_history(const fs::path& folder) {
   return history_of(hdf5::ReadableFile(folder / "trajectory.h5"));
+}
+
+Frame read_frame(const fs::path& folder, std::optional<std::size_t> index) {
+  std::error_code ignored;
+  const bool goes_on = !fs::exists(folder / "trajectory.h5", ignored) &&
+                       fs::exists(folder / "trajectory.part.h5", ignored);
+  const hdf5::ReadableFile file(folder / (goes_on ? "trajectory.part.h5" : "trajectory.h5"));
+  const FrameReader frames(file);
+  const std::size_t count = frames.num_frames();
+  if (index && *index >= count) {
+    throw ConfigError(
+        fmt::format("{}: frame {}: must be in [0, {})", folder.string(), *index, count));
+  }
+  const std::size_t chosen = index.value_or(count - 1);
+  return {frames.at(chosen), chosen, count};
 }
 
 FinishedRun read_run(const fs::path& folder) {

@@ -13,6 +13,16 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> fields{
      {"normal_velocity", "normal_velocity"},
      {"bending_energy_density", "bending_energy_density"}}};
 
+/// The positions are a field as well: meshio reads the geometry of the first frame only.
+std::string positions_text(std::string_view hdf5_name, const XdmfFrame& frame) {
+  return fmt::format(
+      "        <Attribute Name=\"positions\" AttributeType=\"Vector\" Center=\"Node\">\n"
+      "          <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{} "
+      "3\">{}:{}/positions</DataItem>\n"
+      "        </Attribute>\n",
+      frame.num_nodes, hdf5_name, frame.group);
+}
+
 std::string attribute_text(std::string_view hdf5_name, const XdmfFrame& frame,
                            std::string_view shown, std::string_view stored) {
   return fmt::format(
@@ -39,6 +49,7 @@ std::string frame_text(std::string_view hdf5_name, const XdmfFrame& frame) {
       "        </Geometry>\n",
       frame.group, frame.time, frame.num_triangles, hdf5_name, frame.mesh, frame.num_nodes,
       frame.group);
+  text += positions_text(hdf5_name, frame);
   if (frame.is_two_phase) text += attribute_text(hdf5_name, frame, "c", "order_parameter");
   for (const auto& [shown, stored] : fields)
     text += attribute_text(hdf5_name, frame, shown, stored);
@@ -50,7 +61,7 @@ std::string frame_text(std::string_view hdf5_name, const XdmfFrame& frame) {
 std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> frames) {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
-      "<Xdmf Version=\"2.0\">\n"
+      "<Xdmf Version=\"3.0\">\n"
       "  <Domain>\n"
       "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t i = 0; i < frames.size(); ++i) {

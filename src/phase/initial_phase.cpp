@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/refuse.hpp"
@@ -75,20 +76,48 @@ Eigen::VectorXd match(const PhaseLevels& levels, const mesh::Surface& surface, d
   return shifted(levels, -error_low < error_high ? low : high);
 }
 
+/// The numbers of the file, or of the point field, that the options name.
+GivenNumbers given_numbers(const PhaseOptions& options, std::span<const mesh::PointField> fields) {
+  if (options.field.empty()) return read_phase_file(options.path);
+  std::string names;
+  for (const mesh::PointField& field : fields) {
+    if (field.name == options.field) return numbers_of(field);
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
+  }
+  refuse("phase.field", fmt::format("\"{}\"", options.field),
+         names.empty() ? "the file of the shape has no point fields"
+                       : fmt::format("must be a point field of the shape's file: {}", names));
+}
+
 }  // namespace
 
-Eigen::VectorXd initial_phase(const PhaseOptions& options, const mesh::Surface& surface,
-                              double interface_width, std::optional<double> target) {
+void PhaseOptions::check_together() const {
+  if (kind == PhaseKind::file && !field.empty() && !path.empty())
+    refuse("phase.field", fmt::format("\"{}\"", field), "leaves no use for phase.path");
+}
+
+PhaseStart start_phase(const PhaseOptions& options, const mesh::Surface& surface,
+                       double interface_width, std::optional<double> target,
+                       std::span<const mesh::PointField> fields) {
   check("phase", options);
   if (!(interface_width > 0) || !std::isfinite(interface_width))
     refuse("material.interface_width", interface_width, "must be > 0");
   const bool is_matched = target && options.match_target;
   if (options.kind == PhaseKind::file) {
-    auto values = read_phase_file(options.path, surface.positions.rows());
-    return is_matched ? match({std::move(values), PhaseProfile::clip}, surface, *target) : values;
+    PhaseStart start = order_parameter_of(given_numbers(options, fields), *surface.triangulation);
+    if (is_matched) {
+      start.order_parameter =
+          match({std::move(start.order_parameter), PhaseProfile::clip}, surface, *target);
+    }
+    return start;
   }
   const auto levels = phase_levels(options, surface, interface_width);
-  return is_matched ? match(levels, surface, *target) : shifted(levels, 0);
+  return {is_matched ? match(levels, surface, *target) : shifted(levels, 0), {}};
+}
+
+Eigen::VectorXd initial_phase(const PhaseOptions& options, const mesh::Surface& surface,
+                              double interface_width, std::optional<double> target) {
+  return start_phase(options, surface, interface_width, target, {}).order_parameter;
 }
 
 }  // namespace vesica::phase

@@ -187,18 +187,19 @@ void warn_of_schedules(const config::RunConfig& config, Case& vesicle) {
   }
 }
 
-Eigen::VectorXd order_parameter_of(const config::RunConfig& config, const mesh::Surface& surface,
-                                   const model::Model& model) {
+phase::PhaseStart phase_of(const config::RunConfig& config, const shapes::Shape& shape,
+                           const model::Model& model) {
   const auto& target = model.targets.of<model::PhaseDifference>();
-  return phase::initial_phase(*config.phase, surface, model.material.interface_width.value(0),
-                              target ? std::optional(target->value(0)) : std::nullopt);
+  return phase::start_phase(*config.phase, shape.surface, model.material.interface_width.value(0),
+                            target ? std::optional(target->value(0)) : std::nullopt, shape.fields);
 }
 
 void check_topology(const config::RunConfig& config, const mesh::Triangulation& triangulation) {
   const int pieces = triangulation.num_components();
   if (pieces != 1) {
     throw ConfigError(
-        fmt::format("shape.path = \"{}\": the surface has {} pieces: must be one vesicle",
+        fmt::format("shape.path = \"{}\": the surface has {} pieces: must be one vesicle "
+                    "(shape.repair = true keeps the largest)",
                     config.shape.path, pieces));
   }
   const int genus = triangulation.genus();
@@ -209,6 +210,12 @@ void check_topology(const config::RunConfig& config, const mesh::Triangulation& 
         "\"bisection\"",
         genus));
   }
+}
+
+void check_files(const config::RunConfig& config) {
+  if (config.shape.kind == shapes::ShapeKind::file) check_file(config, config.shape.path);
+  if (config.phase && config.phase->kind == phase::PhaseKind::file)
+    check_file(config, config.phase->path);
 }
 
 }  // namespace
@@ -227,13 +234,22 @@ Case case_of(const config::RunConfig& config, problem::State start,
 }
 
 Case make_case(const config::RunConfig& config) {
-  const mesh::Surface surface = shapes::make_shape(config.shape);
-  problem::State start = state_at_rest(surface);
+  check_files(config);
+  std::vector<std::string> notes = config.notes;
+  const auto add_notes = [&](const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  };
+  const shapes::Shape shape = shapes::start_shape(config.shape);
+  add_notes(shape.notes);
+  problem::State start = state_at_rest(shape.surface);
   if (config.phase) {
-    add_order_parameter(start,
-                        order_parameter_of(config, surface, model_of(config, measures_of(start))));
+    phase::PhaseStart phase = phase_of(config, shape, model_of(config, measures_of(start)));
+    add_order_parameter(start, std::move(phase.order_parameter));
+    add_notes(phase.notes);
   }
-  return case_of(config, std::move(start));
+  Case vesicle = case_of(config, std::move(start));
+  vesicle.warnings.insert(vesicle.warnings.begin(), notes.begin(), notes.end());
+  return vesicle;
 }
 
 }  // namespace vesica::setup

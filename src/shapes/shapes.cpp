@@ -58,6 +58,12 @@ mesh::Surface tips_shape(const ShapeOptions& options) {
 
 }  // namespace
 
+Shape start_shape(const ShapeOptions& options) {
+  if (options.kind != ShapeKind::file) return {make_shape(options), {}, {}};
+  check("shape", options, options.kind);
+  return read_shape(options.path, {options.flip, options.repair, options.smoothing});
+}
+
 mesh::Surface make_shape(const ShapeOptions& options) {
   check("shape", options, options.kind);
   switch (options.kind) {
@@ -74,7 +80,7 @@ mesh::Surface make_shape(const ShapeOptions& options) {
     case ShapeKind::tips:
       return tips_shape(options);
     case ShapeKind::file:
-      return read_surface(options.path, options.flip);
+      return start_shape(options).surface;
   }
   throw ConfigError("shape.kind: must be one of the named kinds");
 }

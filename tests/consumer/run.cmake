@@ -19,7 +19,7 @@ foreach(program IN LISTS programs)
 endforeach()
 
 # The installed programs find the installed library.
-foreach(program IN ITEMS vesica-relax vesica-compare)
+foreach(program IN ITEMS vesica-relax vesica-compare vesica-export)
   if(EXISTS "${WORK_DIR}/prefix/bin/${program}")
     execute_process(COMMAND "${WORK_DIR}/prefix/bin/${program}" --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   endif()

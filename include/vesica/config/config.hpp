@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "vesica/core/error.hpp"
 #include "vesica/core/fields.hpp"
@@ -64,6 +65,10 @@ struct RunConfig {
   OutputOptions output;
   /// Where each "table.key" was written: "file:line:column", or the text of its override.
   std::map<std::string, std::string> places;
+  /// What read_config had to decide, one sentence each. setup::make_case makes warnings of them.
+  std::vector<std::string> notes;
+  /// Files of the case that are nowhere: for each path, where read_config looked for it.
+  std::map<std::string, std::string> missing_files;
 
   template <class Self, class Visitor>
   static void tables(Self& self, Visitor&& visit) {
@@ -85,11 +90,15 @@ struct RunConfig {
 /// value: rule`, for a file that is no TOML, an unknown or repeated key, a wrong type, a value that
 /// breaks its rule; IoError for a file that cannot be read. In messages about an override its text
 /// stands in place of file, line and column.
+///
+/// Relative paths in `shape.path` and `phase.path` become absolute ones. They are relative to the
+/// folder of the case file, those of overrides to the current folder. A file that is only in the
+/// current folder is taken, with one of the `notes`; one that is nowhere is among `missing_files`.
 [[nodiscard]] RunConfig read_config(const std::string& path,
                                     std::span<const std::string> overrides);
 
 /// Reads the text of a case file and then `overrides`, as read_config does; `name` stands for the
-/// file in messages.
+/// file in messages. Paths stay as they are; relative ones are relative to the current folder.
 [[nodiscard]] RunConfig read_config_text(std::string_view text, std::string_view name,
                                          std::span<const std::string> overrides);
 
@@ -115,6 +124,10 @@ struct MethodChoice {
 /// Sets what a preset sets: `solver.rtol` and `stop.normal_velocity`.
 void apply_accuracy(Accuracy accuracy, RunConfig& config);
 
+/// Refuses a path of the case, `config.shape.path` for example, that is among the missing files.
+/// Throws IoError with the places where the file was looked for.
+void check_file(const RunConfig& config, const std::string& path);
+
 /// Returns `message` with the place where the key "table.key" that it begins with was written.
 [[nodiscard]] std::string placed(const RunConfig& config, std::string_view message);
 
@@ -134,7 +147,7 @@ auto with_places(const RunConfig& config, const Call& call) {
 void write_template(std::ostream& out);
 
 /// Returns the effective configuration as the text of a case file that reads back as the same
-/// RunConfig.
+/// RunConfig, from any folder: relative paths of files become absolute ones.
 [[nodiscard]] std::string to_toml(const RunConfig& config);
 
 }  // namespace vesica::config

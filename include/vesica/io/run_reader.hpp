@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "vesica/compare/comparison.hpp"
@@ -23,6 +25,18 @@ struct FinishedRun {
 /// IoError for a folder without an ended run and for files that cannot be read or contradict each
 /// other, ConfigError for a wrong `case.toml`.
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
+
+/// A frame of a trajectory.
+struct Frame {
+  problem::State state;   ///< rates of the positions alone
+  std::size_t index = 0;  ///< from 0
+  std::size_t count = 0;  ///< of the frames of the run
+};
+
+/// Reads a frame of a run that has ended, goes on or broke off; without `index` the last one.
+/// Throws IoError for a folder without a trajectory, ConfigError for a frame that there is not.
+[[nodiscard]] Frame read_frame(const std::filesystem::path& folder,
+                               std::optional<std::size_t> index);
 
 /// Makes the case of `config` with the final state of the run in `folder` as its start, rates and
 /// multipliers included; of a run that broke off (`trajectory.part.h5` alone) the last frame that

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "vesica/core/fields.hpp"
+#include "vesica/mesh/point_field.hpp"
 #include "vesica/mesh/triangulation.hpp"
 
 namespace vesica::phase {
@@ -77,6 +79,7 @@ struct PhaseOptions {
   double amplitude = 0.1;
   int seed = 1;
   std::string path;
+  std::string field;
   bool match_target = true;
 
   template <class Self, class Visitor>
@@ -110,18 +113,45 @@ struct PhaseOptions {
                 Rule::non_negative, Users(noise)},
           self.amplitude);
     visit(Field{"seed", "-", "seed of the random numbers", Rule::any, Users(noise)}, self.seed);
-    visit(Field{"path", "-", "one value a node, in node order; # starts a comment", Rule::any,
-                Users(file)},
+    visit(Field{"path", "-",
+                "one value a vertex, or one a node (vertices and edges), in that order; # starts a "
+                "comment; relative to the case file",
+                Rule::any, Users(file)},
           self.path);
+    visit(Field{"field", "-",
+                "in place of path: name of the point field with the values in the shape's file",
+                Rule::any, Users(file)},
+          self.field);
     visit(Field{"match_target", "-",
                 "shift the level so that int h(c) meets its target at the start"},
           self.match_target);
   }
+  /// Throws ConfigError when a file and a point field are given.
+  void check_together() const;
 };
+
+/// An order parameter at the nodes, shape (N), and what had to be decided about it, one sentence
+/// each.
+struct PhaseStart {
+  Eigen::VectorXd order_parameter;
+  std::vector<std::string> notes;
+};
+
+/// Computes the initial order parameter as initial_phase does. `fields` are the point fields of the
+/// shape's file, for `field`. The notes tell how labels were mapped.
+[[nodiscard]] PhaseStart start_phase(const PhaseOptions& options, const mesh::Surface& surface,
+                                     double interface_width, std::optional<double> target,
+                                     std::span<const mesh::PointField> fields);
 
 /// Computes the initial order parameter at the nodes, shape (N). With a `target` [length^2] and
 /// `match_target`, the level is shifted so that int h(c) = target to round-off. Throws ConfigError
 /// when no shift reaches the target, IoError for an unreadable file.
+///
+/// Values of a file are taken as they stand; they must be in [-1, 1], with an overshoot of 0.05.
+/// Labels, that is values that are all 0 or 1, or all 1 or 2, and not all the same, are mapped: 1
+/// is phase 1 (c = 1), the other one phase 2 (c = -1). With one value a vertex, the middle of an
+/// edge gets the mean of its ends. Vertices are counted in the order of their nodes, which for a
+/// shape from a file is that of the file.
 [[nodiscard]] Eigen::VectorXd initial_phase(const PhaseOptions& options,
                                             const mesh::Surface& surface, double interface_width,
                                             std::optional<double> target);

@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "vesica/core/fields.hpp"
+#include "vesica/mesh/point_field.hpp"
 #include "vesica/mesh/triangulation.hpp"
 
 namespace vesica::shapes {
@@ -62,6 +64,8 @@ struct ShapeOptions {
   double tip_width = 0.5;
   std::string path;
   bool flip = false;
+  bool repair = false;
+  int smoothing = 0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
@@ -113,13 +117,34 @@ struct ShapeOptions {
     visit(Field{"tip_width", "rad", "angular width of a tip", Rule::positive, Users(tips)},
           self.tip_width);
     visit(Field{"path", "-",
-                "closed triangulated surface, .off or .obj; relative to the current folder",
+                "closed triangulated surface: .off, .obj, .ply, .stl, .vtk, .vtu, .vtp, .msh, .tsi "
+                "or .q; relative to the case file",
                 Rule::any, Users(file)},
           self.path);
     visit(Field{"flip", "-", "turn a surface that is inside out", Rule::any, Users(file)},
           self.flip);
+    visit(Field{"repair", "-",
+                "turn triangles outwards, merge vertices at one place, drop unused ones, keep the "
+                "largest part; warnings tell what was done",
+                Rule::any, Users(file)},
+          self.repair);
+    visit(Field{"smoothing", "-",
+                "passes that smooth flat triangles (Taubin 1995) before their edges are bent, for "
+                "surfaces from segmentation",
+                Rule::between(0, 1000), Users(file)},
+          self.smoothing);
   }
 };
+
+/// A starting shape: the surface, and what its file says besides.
+struct Shape {
+  mesh::Surface surface;
+  std::vector<mesh::PointField> fields;  ///< of the file; otherwise empty
+  std::vector<std::string> notes;        ///< what had to be decided, one sentence each
+};
+
+/// Builds a starting shape as make_shape does, with the point fields of its file.
+[[nodiscard]] Shape start_shape(const ShapeOptions& options);
 
 /// Builds a starting shape with outward orientation; all nodes, mid-edge nodes included, lie on:
 ///
@@ -134,10 +159,10 @@ struct ShapeOptions {
 ///              capsule
 ///   tips       |x| = radius + tip_height sum_k exp((cos angle(x, t_k) - 1) / tip_width^2) with the
 ///              n directions t_k of Section 4.4
-///   file       see read_surface
+///   file       see read_shape
 ///
 /// Throws ConfigError `shape.<key> = <value>: <rule>` for values that make no shape, and what
-/// read_surface throws.
+/// read_shape throws.
 [[nodiscard]] mesh::Surface make_shape(const ShapeOptions& options);
 
 }  // namespace vesica::shapes

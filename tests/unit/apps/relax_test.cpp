@@ -85,6 +85,25 @@ TEST_F(RelaxTest, ACaseFileThatCannotBeReadIsAnErrorOfFiles) {
   EXPECT_NE(output_.find("none.toml: cannot be read"), std::string::npos) << output_;
 }
 
+const std::string octahedron =
+    "OFF\n6 8\n1 0 0\n-1 0 0\n0 1.2 0\n0 -1.2 0\n0 0 1\n0 0 -1\n"
+    "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+
+/// The case.toml of the run stands in another folder than the surface, and can be run again there.
+TEST_F(RelaxTest, FindsASurfaceBesideTheCaseFileFromAnotherFolder) {
+  fs::create_directory(folder_ / "sub");
+  write("sub/surface.off", octahedron);
+  write("sub/file.toml",
+        "[shape]\nkind = \"file\"\npath = \"surface.off\"\n[stop]\nmax_steps = 1\n");
+  EXPECT_NE(relax("sub/file.toml --out sub/run"), 4) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "sub/run/case.toml")) << output_;
+  EXPECT_NE(relax("sub/run/case.toml --out again"), 4) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "again/case.toml")) << output_;
+  EXPECT_EQ(relax("sub/file.toml --set shape.path=surface.off --out third"), 4);
+  EXPECT_NE(output_.find("shape.path = \"surface.off\": there is no file"), std::string::npos)
+      << output_;
+}
+
 TEST_F(RelaxTest, RefusesToGoOnWithARunOfAnotherKind) {
   ASSERT_EQ(relax("case.toml --set stop.max_steps=1 --out first"), 1) << output_;
   EXPECT_EQ(relax("case.toml --set phase.kind=ramp --set phase.match_target=false --resume first "

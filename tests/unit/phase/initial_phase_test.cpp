@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "initial_phase_fixture.hpp"
@@ -182,6 +183,51 @@ TEST(InitialPhase, FromAFileIsTakenAsItStands) {
   const auto c = initial_phase(options, surface, width, std::nullopt);
   EXPECT_EQ(c[0], 1.02);
   EXPECT_EQ(c[1], -0.25);
+}
+
+TEST(InitialPhase, FromAFileWithOneValueAVertexHasTheMeanOfTheEndsOnEdges) {
+  const auto surface = problem::unit_sphere(1);
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += std::to_string(i / 12.0) + "\n";
+  const PhaseFile file(text);
+  auto options = of_kind(PhaseKind::file);
+  options.path = file.path();
+  const auto c = initial_phase(options, surface, width, std::nullopt);
+  ASSERT_EQ(c.size(), 42);
+  std::set<mesh::NodeIndex> corners;
+  for (const mesh::QuadraticTriangle& nodes : surface.triangulation->triangles()) {
+    corners.insert({nodes[0], nodes[1], nodes[2]});
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(c[nodes[3 + i]], (c[nodes[i]] + c[nodes[(i + 1) % 3]]) / 2);
+  }
+  int vertex = 0;
+  for (const mesh::NodeIndex node : corners) EXPECT_NEAR(c[node], vertex++ / 12.0, 1e-6);
+}
+
+TEST(InitialPhase, FromLabelsHasPhase1WhereTheLabelIs1) {
+  const auto surface = problem::unit_sphere(1);
+  for (const std::string other : {"0", "2"}) {
+    std::string text;
+    for (int i = 0; i < 42; ++i) text += i % 3 == 0 ? "1\n" : other + "\n";
+    const PhaseFile file(text);
+    auto options = of_kind(PhaseKind::file);
+    options.path = file.path();
+    const PhaseStart start = start_phase(options, surface, width, std::nullopt, {});
+    for (int i = 0; i < 42; ++i) EXPECT_EQ(start.order_parameter[i], i % 3 == 0 ? 1 : -1);
+    ASSERT_EQ(start.notes.size(), 1U);
+    EXPECT_EQ(start.notes[0], file.path() + ": the values are the labels 1 and " + other +
+                                  ": 1 becomes phase 1 (c = 1), " + other + " phase 2 (c = -1)");
+  }
+}
+
+TEST(InitialPhase, OfOneValueOnlyIsNoLabel) {
+  const auto surface = problem::unit_sphere(1);
+  const std::vector<mesh::PointField> fields{{"c", "", Eigen::VectorXd::Zero(12)}};
+  auto options = of_kind(PhaseKind::file);
+  options.field = std::string("c");
+  const PhaseStart start = start_phase(options, surface, width, std::nullopt, fields);
+  EXPECT_EQ(start.order_parameter, Eigen::VectorXd::Zero(42));
+  EXPECT_TRUE(start.notes.empty());
 }
 
 /// All kinds with a shift of the level to several targets.

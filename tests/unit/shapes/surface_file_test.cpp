@@ -200,7 +200,9 @@ TEST_F(SurfaceFile, RefusesFilesThatCannotBeReadOrHaveAnotherFormat) {
   std::filesystem::create_directory(folder_ / "folder.obj");
   test::expect_message<IoError>(
       [&] { (void)read_surface((folder_ / "folder.obj").string(), false); }, "it is a folder");
-  refuses<ConfigError>("a.stl", "solid", "a.stl: extension '.stl': must be .off or .obj");
+  refuses<ConfigError>("a.dae", "",
+                       "a.dae: extension '.dae': must be one of .off, .obj, .ply, .stl, .vtk, "
+                       ".vtu, .vtp, .msh, .tsi, .q");
 }
 
 TEST_F(SurfaceFile, RefusesUnsoundSurfacesByFileAndEdgeOrFace) {

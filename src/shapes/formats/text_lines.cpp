@@ -1,4 +1,4 @@
-#include "text_lines.hpp"
+#include "shapes/formats/text_lines.hpp"
 
 #include <algorithm>
 #include <charconv>

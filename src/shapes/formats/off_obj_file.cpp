@@ -1,11 +1,11 @@
-#include "polygon_file.hpp"
+#include "shapes/formats/formats.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 
-#include "text_lines.hpp"
+#include "shapes/formats/text_lines.hpp"
 
 namespace vesica::shapes {
 namespace {
@@ -98,47 +98,47 @@ bool is_passed_over(std::string_view keyword) {
 
 }  // namespace
 
-PolygonFile parse_off(const std::string& path, std::string_view text) {
+SurfaceData parse_off(const std::string& path, std::string_view text) {
   TextLines lines(path, text);
   if (!lines.next()) lines.refuse("the file is empty");
   const OffCounts counts = read_off_counts(lines);
-  PolygonFile file;
+  SurfaceData data;
   for (long long i = 0; i < counts.vertices; ++i) {
     if (!lines.next()) lines.refuse("the file ends after {} of {} vertices", i, counts.vertices);
     if (lines.words().size() != 3) {
       lines.refuse("vertex with {} numbers: must have 3", lines.words().size());
     }
-    file.vertices.push_back(lines.point(0));
+    data.points.push_back(lines.point(0));
   }
   for (long long i = 0; i < counts.faces; ++i) {
     if (!lines.next()) lines.refuse("the file ends after {} of {} faces", i, counts.faces);
-    file.triangles.push_back(read_off_face(lines, counts.vertices));
+    data.triangles.push_back(read_off_face(lines, counts.vertices));
   }
   if (lines.next()) lines.refuse("text after the last face");
-  return file;
+  return data;
 }
 
-PolygonFile parse_obj(const std::string& path, std::string_view text) {
+SurfaceData parse_obj(const std::string& path, std::string_view text) {
   TextLines lines(path, text);
-  PolygonFile file;
+  SurfaceData data;
   while (lines.next()) {
     const std::string_view keyword = lines.words()[0];
     if (keyword == "v") {
-      file.vertices.push_back(read_obj_vertex(lines));
+      data.points.push_back(read_obj_vertex(lines));
     } else if (keyword == "f") {
       if (lines.words().size() != 4) {
         lines.refuse("face with {} corners: must be a triangle", lines.words().size() - 1);
       }
       mesh::Corners corners{};
       for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = read_obj_corner(lines, lines.words()[i + 1], file.vertices.size());
+        corners[i] = read_obj_corner(lines, lines.words()[i + 1], data.points.size());
       }
-      file.triangles.push_back(corners);
+      data.triangles.push_back(corners);
     } else if (!is_passed_over(keyword)) {
       lines.refuse("keyword '{}': must be v, f, vn, vt, o, g, s, usemtl or mtllib", keyword);
     }
   }
-  return file;
+  return data;
 }
 
 }  // namespace vesica::shapes
