@@ -1,8 +1,11 @@
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "arguments.hpp"
 #include "common/program.hpp"
 #include "vesica/config/config.hpp"
+#include "vesica/io/run_reader.hpp"
 #include "vesica/io/verdict_files.hpp"
 #include "vesica/relax/verdict.hpp"
 #include "vesica/run/run.hpp"
@@ -10,6 +13,21 @@
 
 namespace vesica {
 namespace {
+
+bool goes_on_in_place(const config::RunConfig& config, const Arguments& arguments) {
+  std::error_code ignored;
+  return !arguments.resumed.empty() &&
+         std::filesystem::equivalent(config.output.directory, arguments.resumed, ignored);
+}
+
+/// Says that a run has nothing left to do.
+int conclude(const relax::Verdict& verdict, const Arguments& arguments) {
+  if (!arguments.options.is_quiet) {
+    std::cout << arguments.resumed << ": the run has converged at t = " << verdict.time << ": "
+              << verdict.outcome.reason << "; nothing is left to do\n";
+  }
+  return relax::exit_status(verdict.outcome);
+}
 
 int relax_case(const config::RunConfig& config, const Arguments& arguments) {
   run::Options options = library_options(arguments.options, arguments.case_file);
@@ -35,6 +53,12 @@ int main(int argc, char** argv) {
   return run_program("vesica-relax", [&] {
     const ParsedCommandLine command_line = parse_command_line(argc, argv);
     if (!command_line.arguments) return command_line.status;
-    return relax_case(read_config(*command_line.arguments), *command_line.arguments);
+    const Arguments& arguments = *command_line.arguments;
+    const config::RunConfig config = read_config(arguments);
+    if (goes_on_in_place(config, arguments)) {
+      if (const auto verdict = io::find_conclusion(config, arguments.resumed))
+        return conclude(*verdict, arguments);
+    }
+    return relax_case(config, arguments);
   });
 }

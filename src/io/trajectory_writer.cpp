@@ -2,96 +2,196 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <random>
 #include <system_error>
 #include <utility>
 
+#include "io/durable_files.hpp"
+#include "io/file_names.hpp"
+#include "io/publication.hpp"
 #include "io/trajectory_file.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
+#include "vesica/io/verdict_files.hpp"
 
 namespace vesica::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view part_name = "trajectory.part.h5";
-constexpr std::string_view final_name = "trajectory.h5";
-constexpr std::string_view part_xdmf_name = "trajectory.part.xdmf";
-constexpr std::string_view final_xdmf_name = "trajectory.xdmf";
+/// 128 random bits.
+std::string new_run() {
+  std::random_device random;
+  std::string digits;
+  for (int i = 0; i < 4; ++i) digits += fmt::format("{:08x}", random());
+  return digits;
+}
+
+/// What the run that goes on keeps of the record in its folder, which becomes a part again. The
+/// folder is locked; another run may have gone on since the case was made.
+RecordEnd reopened(const fs::path& folder, const setup::Resumption& resumed) {
+  const fs::path part = folder / file_names::part;
+  std::error_code ignored;
+  const bool has_part = fs::exists(part, ignored);
+  const fs::path record = has_part ? part : folder / file_names::record;
+  RecordEnd end;
+  {
+    const RecordReader reader(record);
+    if (reader.run() != resumed.run || reader.num_frames() != resumed.num_frames) {
+      throw ConfigError(
+          fmt::format("{}: another run has written to it meanwhile", folder.string()));
+    }
+    end = reader.end(resumed.frame + 1);
+  }
+  if (!has_part) rename_file(record, part);
+  for (const char* name : {file_names::verdict, file_names::xdmf}) remove_file(folder / name);
+  synchronise_folder(folder);
+  return end;
+}
+
+std::optional<RecordEnd> find_end(const fs::path& folder, const setup::Case& vesicle,
+                                  bool replaces) {
+  if (!replaces) check_holds_no_run(folder);
+  if (!goes_on_in(folder, vesicle)) return std::nullopt;
+  return reopened(folder, *vesicle.resumed);
+}
+
+TrajectoryFile make_file(const fs::path& folder, const std::optional<RecordEnd>& end,
+                         const std::string& run, const config::RunConfig& config,
+                         const setup::Case& vesicle) {
+  if (end) return {folder / file_names::part, *end, config, vesicle};
+  return {folder / file_names::new_part, run, config, vesicle};
+}
 
 }  // namespace
 
 class TrajectoryWriter::Writer {
  public:
-  Writer(fs::path folder, const config::RunConfig& config, const setup::Case& vesicle)
+  Writer(fs::path folder, const config::RunConfig& config, const setup::Case& vesicle,
+         bool replaces)
       : folder_(std::move(folder)),
         lock_(folder_),
-        output_(config.output),
-        file_(folder_ / part_name, config, vesicle) {}
+        config_(config),
+        model_(vesicle.model),
+        end_(find_end(folder_, vesicle, replaces)),
+        run_(end_ ? vesicle.resumed->run : new_run()),
+        file_(make_file(folder_, end_, run_, config, vesicle)) {
+    if (!end_) return;
+    last_positions_ = vesicle.start.values.positions;
+    last_frame_step_ = 0;
+  }
 
   void observe(const relax::StepView& view) {
-    file_.add_row(view);
     last_positions_ = view.state.values.positions;
     const long step = view.report.counts.steps;
-    if (file_.frames().empty() || step % output_.every_steps == 0) add_frame(view);
+    if (end_ && step == 0) return;  // the last frame of the record
+    file_.add_row(whole(view).view());
+    if (file_.frames().empty() || step % config_.output.every_steps == 0) add_frame(view);
   }
 
   void mesh_changed(const relax::StepView& view, const relax::MeshChange& change) {
-    file_.add_mesh_change(change);
+    relax::MeshChange counted = change;
+    counted.step += earlier_steps();
+    file_.add_mesh_change(counted);
     last_positions_ = view.state.values.positions;
     add_frame(view);
   }
 
-  void happened(const relax::Event& event) { file_.add_event(event); }
+  void happened(const relax::Event& event) {
+    relax::Event counted = event;
+    counted.step += earlier_steps();
+    file_.add_event(counted);
+  }
 
-  void finish(const relax::StepView& view, const relax::Outcome& outcome) {
+  relax::Verdict finish(const relax::StepView& view, const relax::Outcome& outcome) {
     const mesh::Positions& positions = view.state.values.positions;
     const bool was_moved =
         last_positions_.rows() != positions.rows() || last_positions_ != positions;
-    if (was_moved) file_.add_row(view);
-    if (was_moved || view.report.counts.steps != last_frame_step_) file_.add_frame(view);
-    file_.add_outcome(view, outcome);
-    file_.flush();
+    if (was_moved) file_.add_row(whole(view).view());
+    if (was_moved || view.report.counts.steps != last_frame_step_)
+      file_.add_frame(whole(view).view());
+    relax::Verdict verdict =
+        relax::make_verdict(whole(outcome), config_.solver, model_, view.state);
+    verdict.run = run_;
+    file_.add_outcome(view, verdict.outcome, to_json(verdict));
+    commit();
     file_.close();
-    publish();
+    publish(folder_);
+    return verdict;
   }
 
  private:
+  /// A view with the counts and seconds of all parts of the run.
+  struct WholeView {
+    const relax::StepView& part;
+    solve::StepReport report;
+    [[nodiscard]] relax::StepView view() const { return {part.state, report, part.diagnostics}; }
+  };
+  [[nodiscard]] WholeView whole(const relax::StepView& view) const {
+    WholeView result{view, view.report};
+    if (!end_) return result;
+    result.report.counts += end_->outcome.report.counts;
+    result.report.seconds += end_->outcome.report.seconds;
+    return result;
+  }
+
+  /// The outcome of all parts of the run.
+  [[nodiscard]] relax::Outcome whole(const relax::Outcome& part) const {
+    if (!end_) return part;
+    relax::Outcome result = part;
+    const relax::Outcome& earlier = end_->outcome;
+    result.report.counts += earlier.report.counts;
+    result.report.seconds += earlier.report.seconds;
+    for (relax::Event& event : result.events) event.step += earlier_steps();
+    for (relax::MeshChange& change : result.mesh_changes) change.step += earlier_steps();
+    result.events.insert(result.events.begin(), earlier.events.begin(), earlier.events.end());
+    result.mesh_changes.insert(result.mesh_changes.begin(), earlier.mesh_changes.begin(),
+                               earlier.mesh_changes.end());
+    if (end_->num_rows == 0) return result;
+    result.initial_quality = earlier.initial_quality;
+    result.smallest_quality = std::min(part.smallest_quality, earlier.smallest_quality);
+    return result;
+  }
+
+  [[nodiscard]] long earlier_steps() const { return end_ ? end_->outcome.report.counts.steps : 0; }
+
   void add_frame(const relax::StepView& view) {
-    file_.add_frame(view);
-    file_.flush();
-    if (output_.paraview)
-      write_text_file(folder_ / part_xdmf_name, xdmf_text(part_name, file_.frames()));
+    file_.add_frame(whole(view).view());
+    commit();
+    if (config_.output.paraview)
+      write_text_file(folder_ / file_names::part_xdmf,
+                      xdmf_text(file_names::part, run_, file_.frames()));
     last_frame_step_ = view.report.counts.steps;
   }
 
-  /// Puts the finished files in place of those of an older run.
-  void publish() const {
-    std::error_code error;
-    fs::rename(folder_ / part_name, folder_ / final_name, error);
-    if (error) {
-      throw IoError(fmt::format("{}: cannot be written ({})", (folder_ / final_name).string(),
-                                error.message()));
-    }
-    if (output_.paraview) {
-      write_text_file(folder_ / final_xdmf_name, xdmf_text(final_name, file_.frames()));
-    } else {
-      fs::remove(folder_ / final_xdmf_name, error);
-    }
-    fs::remove(folder_ / part_xdmf_name, error);
+  /// A new record gets its name with its first frame, so that every record has one.
+  void commit() {
+    file_.flush();
+    if (end_ || has_name_) return;
+    remove_file(folder_ / file_names::journal);
+    rename_file(folder_ / file_names::new_part, folder_ / file_names::part);
+    file_.was_renamed(folder_ / file_names::part);
+    synchronise_folder(folder_);
+    has_name_ = true;
   }
 
   fs::path folder_;
   FolderLock lock_;
-  config::OutputOptions output_;
+  config::RunConfig config_;
+  model::Model model_;
+  std::optional<RecordEnd> end_;  ///< of a run that goes on in its folder
+  std::string run_;
   TrajectoryFile file_;
+  bool has_name_ = false;
   mesh::Positions last_positions_;
   long last_frame_step_ = -1;
 };
 
 TrajectoryWriter::TrajectoryWriter(fs::path folder, const config::RunConfig& config,
-                                   const setup::Case& vesicle)
-    : writer_(std::make_unique<Writer>(std::move(folder), config, vesicle)) {}
+                                   const setup::Case& vesicle, bool replaces)
+    : writer_(std::make_unique<Writer>(std::move(folder), config, vesicle, replaces)) {}
 
 TrajectoryWriter::~TrajectoryWriter() = default;
 
@@ -122,7 +222,7 @@ void TrajectoryWriter::happened(const relax::StepView&, const relax::Event& even
 void TrajectoryWriter::finish(const relax::StepView& view, const relax::Outcome& outcome) {
   if (!writer_) return;
   const std::unique_ptr<Writer> last = std::move(writer_);
-  last->finish(view, outcome);
+  verdict_ = last->finish(view, outcome);
 }
 
 }  // namespace vesica::io

@@ -47,12 +47,15 @@ std::string frame_text(std::string_view hdf5_name, const XdmfFrame& frame) {
 
 }  // namespace
 
-std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> frames) {
-  std::string text =
+std::string xdmf_text(std::string_view hdf5_name, std::string_view run,
+                      std::span<const XdmfFrame> frames) {
+  std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
+      "<!-- run {} -->\n"
       "<Xdmf Version=\"2.0\">\n"
       "  <Domain>\n"
-      "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+      "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+      run);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool is_replaced = i + 1 < frames.size() && frames[i + 1].time == frames[i].time;
     if (!is_replaced) text += frame_text(hdf5_name, frames[i]);

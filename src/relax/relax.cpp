@@ -14,7 +14,6 @@
 #include "vesica/relax/remesh.hpp"
 
 namespace vesica::relax {
-
 namespace {
 
 constexpr double restart_step = 0.3;  // of the last step, on a new mesh
@@ -72,8 +71,11 @@ class Run {
     return conclude(*end);
   }
 
-  /// For the way out through an exception: observers complete what they have.
-  void abandon(const std::string& reason) { conclude({RunStatus::numerical_failure, reason}); }
+  /// For the way out through an exception: observers complete what they have, and may not hide it.
+  void abandon(const std::string& reason) noexcept try {
+    if (outcome_.reason.empty()) conclude({RunStatus::numerical_failure, reason});
+  } catch (const std::exception&) {
+  }
 
  private:
   [[nodiscard]] const problem::State& state() const { return stepper_.current->state(); }
@@ -155,8 +157,7 @@ class Run {
   std::optional<Stop> respond_to_failure() {
     const std::string failure = report_.reason;
     const Answers answers = ask(&Controller::respond_to_failure);
-    const bool is_interrupted = answers.stop && answers.stop->status == RunStatus::interrupted;
-    if (is_interrupted) return answers.stop;
+    if (answers.stop && answers.stop->status == RunStatus::interrupted) return answers.stop;
     if (const auto limit = respond_to_limit()) return limit;
     if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
     return explained({RunStatus::numerical_failure, failure}, answers.stop);

@@ -3,13 +3,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/run_reader.hpp"
 #include "vesica/io/trajectory_writer.hpp"
-#include "vesica/io/verdict_files.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/relax/damping_controller.hpp"
@@ -23,9 +23,19 @@
 namespace vesica::run {
 namespace {
 
+/// Whether the run that is resumed goes on in its own folder.
+bool goes_on_in_place(const config::RunConfig& config, const Options& options) {
+  std::error_code ignored;
+  return !options.resumed.empty() &&
+         std::filesystem::equivalent(options.resumed, config.output.directory, ignored);
+}
+
 void check(const config::RunConfig& config, const Options& options) {
   if (options.writes_files) {
-    io::check_run_folder(config.output.directory, options.case_file.string(), options.overwrites);
+    const bool in_place = goes_on_in_place(config, options);
+    io::check_run_folder(config.output.directory,
+                         in_place ? std::filesystem::path() : options.case_file,
+                         options.overwrites || in_place);
   }
   (void)relax::resolved_damping(config.damping);
 }
@@ -47,14 +57,14 @@ relax::Outcome outcome_of_failed_start(const setup::Case& vesicle, std::string r
 
 using Observers = std::vector<relax::Observer*>;
 
-/// Runs the loop with `observers` behind the progress, and the controllers of run.hpp.
+/// Runs the loop with `observers`, of which the first writes files if there are any, and the controllers of run.hpp.
 relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
                        const Options& options, Observers observers,
                        std::unique_ptr<solve::Stepper>& stepper) {
   std::optional<io::Progress> progress;
-  if (options.progress != nullptr) {
-    observers.insert(observers.begin(),
-                     &progress.emplace(*options.progress, options.progress_style));
+  if (options.progress != nullptr) {  // behind the files: what it tells of is on the disk
+    const auto behind_files = observers.begin() + (options.writes_files ? 1 : 0);
+    observers.insert(behind_files, &progress.emplace(*options.progress, options.progress_style));
   }
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
@@ -86,8 +96,9 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   std::optional<io::TrajectoryWriter> trajectory;
   if (options.writes_files) {
     io::create_run_folder(config.output.directory);
+    const bool replaces = options.overwrites || goes_on_in_place(config, options);
     observers.insert(observers.begin(),
-                     &trajectory.emplace(config.output.directory, config, vesicle));
+                     &trajectory.emplace(config.output.directory, config, vesicle, replaces));
   }
   relax::Outcome outcome;
   if (stepper) {
@@ -98,6 +109,7 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
       observer->finish({vesicle.start, outcome.report, outcome.diagnostics}, outcome);
   }
   const problem::State& state = stepper ? stepper->state() : vesicle.start;
+  if (trajectory && trajectory->verdict()) return {*trajectory->verdict(), state, vesicle.warnings};
   return {relax::make_verdict(std::move(outcome), config.solver, vesicle.model, state), state,
           vesicle.warnings};
 }
@@ -119,9 +131,7 @@ Result run(const config::RunConfig& config, const Options& options) {
 Result run(const config::RunConfig& config, const setup::Case& vesicle, const Options& options) {
   return config::with_places(config, [&] {
     check(config, options);
-    Result result = relaxed(config, vesicle, options);
-    if (options.writes_files) io::write_verdict(config, result.verdict);
-    return result;
+    return relaxed(config, vesicle, options);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "vesica/measure/diagnostics.hpp"
@@ -13,6 +14,8 @@ namespace vesica::relax {
 
 /// The verdict on a run, the content of `verdict.json`.
 struct Verdict {
+  /// The random number that the files of a run share; absent in files of older versions.
+  std::optional<std::string> run;
   relax::Outcome outcome;
   std::string method;  ///< name of the integrator, as in the case file
   /// Equations whose equilibrium the run looked for: the weak form ("paper") or the discrete energy
@@ -52,6 +55,7 @@ struct Verdict {
     visit(Field{"", "-", "numbers of the shape"}, self.shape);
     visit(Field{"events", "-", "in the order in which they were noticed"}, outcome.events);
     visit(Field{"", "-", "work"}, outcome.report);
+    visit(Field{"run", "-", "the number that the files of a run share"}, self.run);
   }
 };
 

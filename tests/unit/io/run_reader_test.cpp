@@ -45,9 +45,7 @@ relax::Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, i
     writer.observe({state, report, measured});
   }
   writer.finish({state, report, measured}, outcome);
-  relax::Verdict verdict = relax::make_verdict(outcome, solve::SolverOptions{}, {}, state);
-  io::write_verdict(config, verdict);
-  return verdict;
+  return writer.verdict().value();
 }
 
 std::string io_error_of(const fs::path& folder) {

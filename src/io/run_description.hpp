@@ -1,0 +1,16 @@
+#pragma once
+
+#include "io/hdf5/writable_file.hpp"
+#include "vesica/config/config.hpp"
+#include "vesica/setup/case.hpp"
+
+namespace vesica::io {
+
+/// Writes `/configuration`; in place of an older one.
+void write_configuration(hdf5::WritableFile& file, const config::RunConfig& config);
+/// Writes `/origin`.
+void write_origin(hdf5::WritableFile& file, const setup::Origin& origin);
+/// Writes `/versions`; in place of older ones.
+void write_versions(hdf5::WritableFile& file);
+
+}  // namespace vesica::io
