@@ -31,7 +31,9 @@ class FrameReader {
     state.rates.mean_curvature = Eigen::VectorXd::Zero(size);
     if (file_.has(group_ + "/order_parameter")) {
       state.values.order_parameter = scalar("order_parameter");
-      state.rates.order_parameter = Eigen::VectorXd::Zero(size);
+      state.rates.order_parameter = file_.has(group_ + "/order_parameter_rate")
+                                        ? scalar("order_parameter_rate")
+                                        : Eigen::VectorXd::Zero(size);
     }
     model::PerConstraint::fields(state.values.multipliers, [&](const Field& field, auto& value) {
       value = file_.find_attribute(group_, fmt::format("multiplier_{}", field.name));
@@ -129,15 +131,19 @@ compare::EnergyHistory RecordReader::history() const {
           file_.numbers_or_nan("/series/energy_total", rows)};
 }
 
-problem::State RecordReader::state(std::size_t frame) const {
-  return FrameReader(file_, numbered("frames", frame)).state();
+Frame RecordReader::frame(std::size_t index) const {
+  const std::string group = numbered("frames", index);
+  return {index,
+          FrameReader(file_, group).state(),
+          file_.find_attribute(group, "step_size").value_or(0),
+          {}};
 }
 
 Frame RecordReader::last_good() const {
   std::string damage;
   for (std::size_t index = num_frames_; index-- > 0;) {
     try {
-      Frame frame{index, state(index), {}};
+      Frame frame = this->frame(index);
       if (!damage.empty()) {
         frame.warning = fmt::format("{}; frame {} at t = {:g} is the last one that can be read",
                                     damage, index, frame.state.time);

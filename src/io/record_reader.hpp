@@ -31,7 +31,8 @@ struct RecordEnd {
 struct Frame {
   std::size_t index = 0;
   problem::State state;
-  std::string warning;  ///< names the damaged frames behind it; empty: there are none
+  double step_size = 0;  ///< of the step that led to it; 0: unknown
+  std::string warning;   ///< names the damaged frames behind it; empty: there are none
 };
 
 /// Reads the record of a run (docs/output.md), ended or not. Everything throws IoError, which names
@@ -54,10 +55,10 @@ class RecordReader {
   [[nodiscard]] compare::EnergyHistory history() const;
 
   [[nodiscard]] std::size_t num_frames() const { return num_frames_; }
-  [[nodiscard]] Frame last() const { return {num_frames_ - 1, state(num_frames_ - 1), {}}; }
+  [[nodiscard]] Frame frame(std::size_t index) const;
+  [[nodiscard]] Frame last() const { return frame(num_frames_ - 1); }
   /// The last frame that can be read whole.
   [[nodiscard]] Frame last_good() const;
-  [[nodiscard]] problem::State state(std::size_t frame) const;
   /// All frames as XDMF has to know them.
   [[nodiscard]] std::vector<XdmfFrame> frames() const { return frames(num_frames_); }
   /// The end of the record when it is cut behind `num_frames` frames.

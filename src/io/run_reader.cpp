@@ -91,10 +91,9 @@ config::RunConfig checked_config(const fs::path& folder, const RecordReader& rec
 }
 
 /// Refuses what a resumed run cannot take, names what else has changed.
-std::vector<std::string> changes_of(const config::RunConfig& config,
-                                    const config::RunConfig& recorded) {
+std::vector<std::string> warnings_of(const std::vector<ConfigChange>& changes) {
   std::vector<std::string> warnings;
-  for (const auto& [key, before, after] : changes_between(recorded, config)) {
+  for (const auto& [key, before, after] : changes) {
     if (key.starts_with("shape.") || key.starts_with("phase.")) {
       throw ConfigError(fmt::format(
           "{} = {}: a resumed run goes on from its last state, which began with {}: leave it so",
@@ -105,6 +104,13 @@ std::vector<std::string> changes_of(const config::RunConfig& config,
                                    before.empty() ? "none" : before));
   }
   return warnings;
+}
+
+/// The rates of the last state hold as long as only limits and files are other ones.
+bool keep_the_equations(const std::vector<ConfigChange>& changes) {
+  return std::all_of(changes.begin(), changes.end(), [](const ConfigChange& change) {
+    return change.key.starts_with("stop.") || change.key.starts_with("output.");
+  });
 }
 
 config::RunConfig config_of(const RecordReader& record, const fs::path& path,
@@ -171,14 +177,15 @@ setup::Case resumed_case(const config::RunConfig& config, const fs::path& folder
                                   folder.string(), config.phase ? "no" : "a",
                                   config.phase ? "one" : "none"));
   }
-  const config::RunConfig recorded = config_of(record, path, {});
-  std::vector<std::string> warnings = changes_of(config, recorded);
+  const std::vector<ConfigChange> changes = changes_between(config_of(record, path, {}), config);
+  std::vector<std::string> warnings = warnings_of(changes);
   setup::Case vesicle = setup::case_of(config, std::move(frame.state), record.origin());
-  for (std::string& past : warnings_of_past(vesicle, changes_between(recorded, config)))
-    warnings.push_back(std::move(past));
+  for (std::string& past : warnings_of_past(vesicle, changes)) warnings.push_back(std::move(past));
   if (!frame.warning.empty()) warnings.push_back(std::move(frame.warning));
   vesicle.warnings.insert(vesicle.warnings.end(), warnings.begin(), warnings.end());
-  vesicle.resumed = setup::Resumption{folder, record.run(), record.num_frames(), frame.index};
+  const double step_size = keep_the_equations(changes) ? frame.step_size : 0;
+  vesicle.resumed =
+      setup::Resumption{folder, record.run(), record.num_frames(), frame.index, step_size};
   return vesicle;
 }
 

@@ -85,6 +85,7 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   file_.set_attribute(group, "time", state.time);
   file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
   file_.set_attribute(group, "mesh", mesh);
+  file_.set_attribute(group, "step_size", view.report.step_size);
   file_.set_attribute(group, "damping", state.damping);
   model::PerConstraint::fields(state.values.multipliers,
                                AttributeWriter(file_, group, "multiplier_"));
@@ -93,8 +94,10 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   file_.write(group + "/velocity", values_of(state.rates.positions), 3);
   file_.write(group + "/normals", values_of(fields.normals), 3);
   file_.write(group + "/mean_curvature", values_of(state.values.mean_curvature));
-  if (state.is_two_phase())
+  if (state.is_two_phase()) {
     file_.write(group + "/order_parameter", values_of(state.values.order_parameter));
+    file_.write(group + "/order_parameter_rate", values_of(state.rates.order_parameter));
+  }
   file_.write(group + "/normal_velocity", values_of(fields.normal_velocity));
   file_.write(group + "/bending_energy_density", values_of(fields.bending_energy_density));
   write_domains(view.diagnostics);

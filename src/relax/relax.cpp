@@ -231,9 +231,8 @@ class Run {
       record_event();
     }
     const std::string found = report.reason.empty() ? "" : "; " + report.reason;
-    if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
+    if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_))
       return std::nullopt;
-    }
     if (report_.gradient) {
       return Stop{RunStatus::converged,
                   fmt::format("distance to the minimum {:.2e} below {:g}, constraints met{}",

@@ -83,12 +83,24 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
+/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the integrator
+/// being lost, with a part of its last step. Where the rates no longer hold they are found anew.
+std::unique_ptr<solve::Stepper> first_stepper(const config::RunConfig& config,
+                                              const setup::Case& vesicle) {
+  constexpr double part_of_last_step = 0.3;
+  const double step_size = vesicle.resumed ? vesicle.resumed->step_size : 0;
+  if (step_size > 0 && config.solver.method == solve::Method::ida)
+    return restart_stepper(config.solver, vesicle.model, vesicle.start,
+                           {part_of_last_step * step_size});
+  return make_stepper(config.solver, vesicle.model, vesicle.start);
+}
+
 Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
                const Options& options) {
   std::unique_ptr<solve::Stepper> stepper;
   std::string failure;
   try {
-    stepper = make_stepper(config.solver, vesicle.model, vesicle.start);
+    stepper = first_stepper(config, vesicle);
   } catch (const SolverError& error) {
     failure = error.what();
   }

@@ -96,7 +96,7 @@ class KillTest : public test::ProgramTest {
     for (std::size_t i = 1; i < frames.size(); ++i) {
       EXPECT_TRUE(frames[i].step == frames[i - 1].step || frames[i].step == frames[i - 1].step + 1);
       if (frames[i].step != frames[i - 1].step || frames[i].mesh != frames[i - 1].mesh) continue;
-      EXPECT_NE(record.state(i).values.positions, record.state(i - 1).values.positions)
+      EXPECT_NE(record.frame(i).state.values.positions, record.frame(i - 1).state.values.positions)
           << "step " << frames[i].step;
     }
   }
