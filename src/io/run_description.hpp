@@ -10,6 +10,8 @@ namespace vesica::io {
 void write_configuration(hdf5::WritableFile& file, const config::RunConfig& config);
 /// Writes `/origin`.
 void write_origin(hdf5::WritableFile& file, const setup::Origin& origin);
+/// Adds a group to `/provenance`: who made this part of the run, from which other one.
+void add_provenance(hdf5::WritableFile& file, const setup::Case& vesicle);
 /// Writes `/versions`; in place of older ones.
 void write_versions(hdf5::WritableFile& file);
 

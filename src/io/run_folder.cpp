@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> files_of_a_run{file_names::record, file_names::part,
-                                                    file_names::verdict, file_names::configuration};
+constexpr std::array<const char*, 5> files_of_a_run{file_names::record, file_names::part,
+                                                    file_names::verdict, file_names::configuration,
+                                                    file_names::checkpoint};
 
 std::string last_system_error() { return std::generic_category().message(errno); }
 

@@ -39,6 +39,11 @@ void check_has_ended(const fs::path& folder) {
   }
 }
 
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
 /// The record in a folder: that of a run that broke off or, where there is none, of one that has
 /// ended. Throws ConfigError when a run is writing to it.
 fs::path record_in(const fs::path& folder) {
@@ -46,10 +51,39 @@ fs::path record_in(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored))
     throw IoError(fmt::format("{}: no such folder", folder.string()));
   const FolderLock nobody_writes(folder);
-  for (const char* name : {file_names::part, file_names::record})
-    if (fs::exists(folder / name, ignored)) return folder / name;
-  throw IoError(
-      fmt::format("{}: holds no run ({} is missing)", folder.string(), file_names::record));
+  return folder / (is_there(folder / file_names::part) ? file_names::part : file_names::record);
+}
+
+/// From where a run can go on: the record or, where that is damaged or gone, a checkpoint.
+struct Source {
+  fs::path path;
+  bool is_checkpoint = false;
+  std::string warning;
+};
+
+Source source_in(const fs::path& folder) {
+  Source source{record_in(folder), false, {}};
+  if (!is_there(source.path) && !is_there(folder / file_names::checkpoint) &&
+      !is_there(folder / file_names::previous_checkpoint)) {
+    throw IoError(
+        fmt::format("{}: holds no run ({} is missing)", folder.string(), file_names::record));
+  }
+  for (const fs::path& path :
+       {source.path, folder / file_names::checkpoint, folder / file_names::previous_checkpoint}) {
+    try {
+      const RecordReader record(path);
+      (void)record.configuration();
+      (void)record.origin();
+      const double time = record.last_good().state.time;
+      if (source.warning.empty()) return source;
+      return {path, true,
+              fmt::format("{}; the run goes on from {} at t = {:g}", source.warning,
+                          path.filename().string(), time)};
+    } catch (const IoError& error) {
+      if (source.warning.empty()) source.warning = error.what();
+    }
+  }
+  throw IoError(source.warning);
 }
 
 std::string text_of(const fs::path& path) {
@@ -169,28 +203,30 @@ FinishedRun read_run(const fs::path& folder) {
 }
 
 setup::Case resumed_case(const config::RunConfig& config, const fs::path& folder) {
-  const fs::path path = record_in(folder);
-  const RecordReader record(path);
+  const Source source = source_in(folder);
+  const RecordReader record(source.path);
   Frame frame = record.last_good();
   if (frame.state.is_two_phase() != config.phase.has_value()) {
     throw ConfigError(fmt::format("{}: the run has {} phase field, the case has {}",
                                   folder.string(), config.phase ? "no" : "a",
                                   config.phase ? "one" : "none"));
   }
-  const std::vector<ConfigChange> changes = changes_between(config_of(record, path, {}), config);
+  const std::vector<ConfigChange> changes =
+      changes_between(config_of(record, source.path, {}), config);
   std::vector<std::string> warnings = warnings_of(changes);
   setup::Case vesicle = setup::case_of(config, std::move(frame.state), record.origin());
   for (std::string& past : warnings_of_past(vesicle, changes)) warnings.push_back(std::move(past));
-  if (!frame.warning.empty()) warnings.push_back(std::move(frame.warning));
+  for (const std::string& damage : {source.warning, frame.warning})
+    if (!damage.empty()) warnings.push_back(damage);
   vesicle.warnings.insert(vesicle.warnings.end(), warnings.begin(), warnings.end());
   const double step_size = keep_the_equations(changes) ? frame.step_size : 0;
-  vesicle.resumed =
-      setup::Resumption{folder, record.run(), record.num_frames(), frame.index, step_size};
+  vesicle.resumed = setup::Resumption{folder,      record.run(), record.num_frames(),
+                                      frame.index, step_size,    source.is_checkpoint};
   return vesicle;
 }
 
 config::RunConfig recorded_config(const fs::path& folder, std::span<const std::string> overrides) {
-  const fs::path path = record_in(folder);
+  const fs::path path = source_in(folder).path;
   config::RunConfig config = config_of(RecordReader(path), path, overrides);
   config.output.directory = folder.string();
   return config;
@@ -198,7 +234,7 @@ config::RunConfig recorded_config(const fs::path& folder, std::span<const std::s
 
 std::optional<relax::Verdict> find_conclusion(const config::RunConfig& config,
                                               const fs::path& folder) {
-  const fs::path path = record_in(folder);
+  const fs::path path = source_in(folder).path;
   std::optional<relax::Verdict> verdict;
   {
     const RecordReader record(path);

@@ -31,6 +31,7 @@ TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const std::str
   write_configuration(file_, config);
   write_origin(file_, vesicle.origin);
   write_versions(file_);
+  add_provenance(file_, vesicle);
 }
 
 TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RecordEnd& end,
@@ -44,6 +45,7 @@ TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RecordEn
   cut_behind(end);
   write_configuration(file_, config);
   write_versions(file_);
+  add_provenance(file_, vesicle);
 }
 
 /// Removes what the run that goes on will write anew, and the end of the run.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <random>
 #include <system_error>
@@ -20,6 +21,7 @@ namespace vesica::io {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 /// 128 random bits.
 std::string new_run() {
@@ -29,29 +31,36 @@ std::string new_run() {
   return digits;
 }
 
-/// What the run that goes on keeps of the record in its folder, which becomes a part again. The
-/// folder is locked; another run may have gone on since the case was made.
-RecordEnd reopened(const fs::path& folder, const setup::Resumption& resumed) {
+/// What a run that goes on keeps of its record. Nothing when the record is damaged at a place that
+/// the run would have to go on with. Another run may have gone on since the case was made.
+std::optional<RecordEnd> find_end(const fs::path& folder, const fs::path& record,
+                                  const setup::Resumption& resumed) {
+  if (resumed.is_checkpoint) return std::nullopt;
+  try {
+    const RecordReader reader(record);
+    if (reader.run() == resumed.run && reader.num_frames() == resumed.num_frames)
+      return reader.end(resumed.frame + 1);
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+  throw ConfigError(fmt::format("{}: another run has written to it meanwhile", folder.string()));
+}
+
+/// Makes the record in the folder, which is locked, a part again, for the run that goes on; a
+/// damaged one is set aside, and a new one begins.
+std::optional<RecordEnd> reopened(const fs::path& folder, const setup::Resumption& resumed) {
   const fs::path part = folder / file_names::part;
   std::error_code ignored;
-  const bool has_part = fs::exists(part, ignored);
-  const fs::path record = has_part ? part : folder / file_names::record;
-  RecordEnd end;
-  {
-    const RecordReader reader(record);
-    if (reader.run() != resumed.run || reader.num_frames() != resumed.num_frames) {
-      throw ConfigError(
-          fmt::format("{}: another run has written to it meanwhile", folder.string()));
-    }
-    end = reader.end(resumed.frame + 1);
-  }
-  if (!has_part) rename_file(record, part);
+  const fs::path record = fs::exists(part, ignored) ? part : folder / file_names::record;
+  const std::optional<RecordEnd> end = find_end(folder, record, resumed);
   for (const char* name : {file_names::verdict, file_names::xdmf}) remove_file(folder / name);
+  if (!end && fs::exists(record, ignored)) rename_file(record, folder / file_names::damaged);
+  if (end && record != part) rename_file(record, part);
   synchronise_folder(folder);
   return end;
 }
 
-std::optional<RecordEnd> find_end(const fs::path& folder, const setup::Case& vesicle,
+std::optional<RecordEnd> prepared(const fs::path& folder, const setup::Case& vesicle,
                                   bool replaces) {
   if (!replaces) check_holds_no_run(folder);
   if (!goes_on_in(folder, vesicle)) return std::nullopt;
@@ -75,7 +84,9 @@ class TrajectoryWriter::Writer {
         lock_(folder_),
         config_(config),
         model_(vesicle.model),
-        end_(find_end(folder_, vesicle, replaces)),
+        origin_(vesicle.origin),
+        warnings_(vesicle.warnings),
+        end_(prepared(folder_, vesicle, replaces)),
         run_(end_ ? vesicle.resumed->run : new_run()),
         file_(make_file(folder_, end_, run_, config, vesicle)) {
     if (!end_) return;
@@ -115,10 +126,12 @@ class TrajectoryWriter::Writer {
     relax::Verdict verdict =
         relax::make_verdict(whole(outcome), config_.solver, model_, view.state);
     verdict.run = run_;
+    verdict.warnings = warnings_;
     file_.add_outcome(view, verdict.outcome, to_json(verdict));
     commit();
     file_.close();
     publish(folder_);
+    write_checkpoint(view);
     return verdict;
   }
 
@@ -164,13 +177,34 @@ class TrajectoryWriter::Writer {
       write_text_file(folder_ / file_names::part_xdmf,
                       xdmf_text(file_names::part, run_, file_.frames()));
     last_frame_step_ = view.report.counts.steps;
+    if (Clock::now() >= next_checkpoint_) write_checkpoint(view);
+  }
+
+  /// The state alone, for the case that the record is damaged.
+  void write_checkpoint(const relax::StepView& view) {
+    const fs::path temporary = folder_ / file_names::new_checkpoint;
+    {
+      TrajectoryFile file(temporary, run_, config_, {model_, {}, origin_, {}});
+      file.add_frame(whole(view).view());
+      file.close();
+    }
+    remove_file(folder_ / file_names::new_checkpoint_journal);
+    const fs::path checkpoint = folder_ / file_names::checkpoint;
+    std::error_code ignored;
+    if (fs::exists(checkpoint, ignored))
+      rename_file(checkpoint, folder_ / file_names::previous_checkpoint);
+    rename_file(temporary, checkpoint);
+    synchronise_folder(folder_);
+    next_checkpoint_ = Clock::now() + std::chrono::seconds(10);
   }
 
   /// A new record gets its name with its first frame, so that every record has one.
   void commit() {
     file_.flush();
     if (end_ || has_name_) return;
-    remove_file(folder_ / file_names::journal);
+    for (const char* name : {file_names::journal, file_names::checkpoint,
+                             file_names::previous_checkpoint})  // of an older run
+      remove_file(folder_ / name);
     rename_file(folder_ / file_names::new_part, folder_ / file_names::part);
     file_.was_renamed(folder_ / file_names::part);
     synchronise_folder(folder_);
@@ -181,12 +215,15 @@ class TrajectoryWriter::Writer {
   FolderLock lock_;
   config::RunConfig config_;
   model::Model model_;
+  setup::Origin origin_;
+  std::vector<std::string> warnings_;
   std::optional<RecordEnd> end_;  ///< of a run that goes on in its folder
   std::string run_;
   TrajectoryFile file_;
   bool has_name_ = false;
   mesh::Positions last_positions_;
   long last_frame_step_ = -1;
+  Clock::time_point next_checkpoint_;  ///< the first one at once
 };
 
 TrajectoryWriter::TrajectoryWriter(fs::path folder, const config::RunConfig& config,

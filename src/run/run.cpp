@@ -122,8 +122,10 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   }
   const problem::State& state = stepper ? stepper->state() : vesicle.start;
   if (trajectory && trajectory->verdict()) return {*trajectory->verdict(), state, vesicle.warnings};
-  return {relax::make_verdict(std::move(outcome), config.solver, vesicle.model, state), state,
-          vesicle.warnings};
+  Result result{relax::make_verdict(std::move(outcome), config.solver, vesicle.model, state), state,
+                vesicle.warnings};
+  result.verdict.warnings = vesicle.warnings;
+  return result;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/model/model.hpp"
@@ -16,6 +17,7 @@ namespace vesica::relax {
 struct Verdict {
   /// The random number that the files of a run share; absent in files of older versions.
   std::optional<std::string> run;
+  std::vector<std::string> warnings;  ///< about the case, one sentence each
   relax::Outcome outcome;
   std::string method;  ///< name of the integrator, as in the case file
   /// Equations whose equilibrium the run looked for: the weak form ("paper") or the discrete energy
@@ -55,6 +57,7 @@ struct Verdict {
     visit(Field{"", "-", "numbers of the shape"}, self.shape);
     visit(Field{"events", "-", "in the order in which they were noticed"}, outcome.events);
     visit(Field{"", "-", "work"}, outcome.report);
+    visit(Field{"warnings", "-", "about the case, one sentence each"}, self.warnings);
     visit(Field{"run", "-", "the number that the files of a run share"}, self.run);
   }
 };

@@ -29,6 +29,7 @@ struct Resumption {
   /// Size of its last step where the rates of the start still hold, since no option of the equations
   /// has changed; else 0 [time].
   double step_size = 0;
+  bool is_checkpoint = false;  ///< the record is damaged, and the start that of a checkpoint
 };
 
 /// A case that is ready to be relaxed: model, start, and what "initial" stands for.

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "flat_json.hpp"
 #include "program_test.hpp"
@@ -144,6 +145,28 @@ TEST_F(RelaxTest, RefusesASurfaceThatTheMeshMethodOrTheModelCannotTake) {
   EXPECT_EQ(relax("case.toml --set shape.kind=file --set shape.path=two.off --out two"), 2);
   EXPECT_NE(output_.find("the surface has 2 pieces: must be one vesicle"), std::string::npos)
       << output_;
+}
+
+/// The files of a run must not take the places of its output.
+TEST_F(RelaxTest, RunsWithoutStandardInputAndOutput) {
+  EXPECT_EQ(run("/bin/sh",
+                "-c \"'" + std::string(program_relax) + "' case.toml --out run <&- >&- 2>&-\""),
+            0);
+  EXPECT_NO_THROW((void)io::read_run(folder_ / "run"));
+}
+
+TEST_F(RelaxTest, EverySignalThatAsksForTheEndSavesTheRun) {
+  const std::string slow =
+      "case.toml --overwrite --set stop.normal_velocity=1e-300 --set solver.max_step=1e-5 --out "
+      "run";
+  for (const auto& [signal, status] : {std::pair{"HUP", 129}, std::pair{"XCPU", 152}}) {
+    EXPECT_EQ(relax("--help > /dev/null; timeout --foreground --preserve-status --signal=" +
+                    std::string(signal) + " 2 '" + program_relax + "' " + slow),
+              status)
+        << output_;
+    EXPECT_NE(output_.find("SIG" + std::string(signal) + " received"), std::string::npos);
+    EXPECT_NO_THROW((void)io::read_run(folder_ / "run"));
+  }
 }
 
 class SlowRelaxTest : public RelaxTest {};

@@ -24,6 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The start and one step of a case that was resumed.
+struct FakeSteps {
+  explicit FakeSteps(const setup::Case& resumed) : vesicle(resumed) {}
+  void write(const fs::path& folder, const config::RunConfig& config) const {
+    TrajectoryWriter writer(folder, config, vesicle);
+    const measure::Diagnostics measured = fake_diagnostics();
+    problem::State state = vesicle.start;
+    solve::StepReport report = fake_report(0);
+    writer.observe({state, report, measured});
+    report = fake_report(1);
+    state.time += 0.125;
+    writer.observe({state, report, measured});
+    writer.finish({state, report, measured}, fake_outcome(relax::RunStatus::converged));
+  }
+  const setup::Case& vesicle;
+};
+
 /// A run whose files are changed behind its back.
 class DamageTest : public ::testing::Test {
  protected:
@@ -236,38 +253,52 @@ TEST_F(DamageTest, ADamagedFrameIsNamedAndTheOneBeforeItUsed) {
   EXPECT_NE(vesicle.warnings.back().find("frame 2 at t = 1.25 is the last one"), std::string::npos)
       << vesicle.warnings.back();
 
-  config::RunConfig same = config();
-  {  // the record goes on behind that frame
-    TrajectoryWriter writer(folder(), same, vesicle);
-    solve::StepReport report = fake_report(0);
-    const measure::Diagnostics measured = fake_diagnostics();
-    problem::State state = vesicle.start;
-    writer.observe({state, report, measured});
-    report = fake_report(1);
-    state.time = 1.375;
-    writer.observe({state, report, measured});
-    writer.finish({state, report, measured}, fake_outcome(relax::RunStatus::converged));
-  }
+  // the record goes on behind that frame
+  FakeSteps(vesicle).write(folder(), config());
   const FinishedRun mended = read_run(folder());
   EXPECT_EQ(mended.state.time, 1.375);
   EXPECT_EQ(mended.history.step.size(), 12U);
   EXPECT_EQ(mended.history.step.back(), 11);
 }
 
-TEST_F(DamageTest, ACutFileGivesAnEarlierFrameOrSaysWhatIsMissing) {
+TEST_F(DamageTest, ARunWhoseRecordWasCutGoesOnFromItsCheckpoint) {
   const config::RunConfig recorded = config();
-  int num_earlier = 0;
-  for (std::size_t size = 0; size < whole_.size(); size += whole_.size() / 100) {
+  int num_checkpoints = 0;
+  for (std::size_t size = 0; size < whole_.size(); size += whole_.size() / 50) {
     replace_record(whole_.substr(0, size));
-    try {
-      const setup::Case vesicle = resumed_case(recorded, folder());
-      EXPECT_LE(vesicle.start.time, 1.5);
-      ++num_earlier;
-    } catch (const IoError& error) {
-      EXPECT_NE(std::string(error.what()).find("trajectory.h5"), std::string::npos);
+    const setup::Case vesicle = resumed_case(recorded, folder());
+    const std::string& warning = vesicle.warnings.back();
+    if (vesicle.resumed->is_checkpoint) {
+      ++num_checkpoints;
+      EXPECT_EQ(vesicle.start.time, 1.5) << size;
+      EXPECT_NE(warning.find("trajectory.h5: /"), std::string::npos) << warning;
+      EXPECT_NE(warning.find("goes on from checkpoint.h5 at t = 1.5"), std::string::npos)
+          << warning;
+    } else if (vesicle.resumed->frame < 3) {
+      EXPECT_LT(vesicle.start.time, 1.5);
+      EXPECT_NE(warning.find("trajectory.h5: /frames/"), std::string::npos) << warning;
     }
   }
-  EXPECT_GT(num_earlier, 0);
+  EXPECT_GT(num_checkpoints, 20);
+}
+
+TEST_F(DamageTest, ADamagedCheckpointLeavesTheOneBeforeIt) {
+  const std::string checkpoint = bytes_of(folder() / "checkpoint.h5");
+  for (const char* name : {"trajectory.h5", "checkpoint.h5"})
+    std::ofstream(folder() / name) << "no HDF5";
+  EXPECT_EQ(resumed_case(config(), folder()).start.time, 0);
+  std::ofstream(folder() / "checkpoint.previous.h5") << "no HDF5";
+  EXPECT_THROW((void)recorded_config(folder(), {}), IoError);
+}
+
+TEST_F(DamageTest, ADamagedRecordIsSetAsideInItsFolder) {
+  replace_record(whole_.substr(0, whole_.size() / 2));
+  const setup::Case vesicle = resumed_case(config(), folder());
+  FakeSteps(vesicle).write(folder(), config());
+  EXPECT_EQ(bytes_of(folder() / "trajectory.damaged.h5"), whole_.substr(0, whole_.size() / 2));
+  const FinishedRun run = read_run(folder());
+  EXPECT_EQ(run.history.step, (std::vector<double>{0, 1}));
+  EXPECT_EQ(run.verdict.warnings, vesicle.warnings);
 }
 
 }  // namespace
