@@ -51,13 +51,16 @@ class KillTest : public test::ProgramTest {
     return calls;
   }
 
-  /// Checks a kill before call number `call`; `is_partial`: half of a write is made.
-  void check(const ShortRun& run, long call, bool is_partial) {
-    SCOPED_TRACE(std::string(run.name) + ", call " + std::to_string(call) +
-                 (is_partial ? ", half of it made" : ""));
-    const int status =
-        start(run, "KILL_AT=" + std::to_string(call) + (is_partial ? " KILL_PARTIAL=1" : ""));
-    ASSERT_EQ(status, 137) << output_;
+  /// What happens to the call at which the program is killed, and to those before it.
+  enum class Loss { nothing, half_of_the_call, power };
+
+  /// Checks a kill before call number `call`.
+  void check(const ShortRun& run, long call, Loss loss) {
+    std::string environment = "KILL_AT=" + std::to_string(call);
+    if (loss == Loss::half_of_the_call) environment += " KILL_PARTIAL=1";
+    if (loss == Loss::power) environment += " POWER_LOSS=" + std::to_string(call);
+    SCOPED_TRACE(std::string(run.name) + ", " + environment);
+    ASSERT_EQ(start(run, environment), 137) << output_;
     for (const std::string& name : run.folders) check_folder(folder_ / "out" / name);
     fs::remove_all(folder_ / "out");
   }
@@ -126,7 +129,7 @@ TEST_F(KillTest, LosesNoFrameAtOneOfAHundredCalls) {
     const long calls = count_calls(run);
     ASSERT_GT(calls, 100);
     for (int i = 0; i < 25; ++i)
-      check(run, std::uniform_int_distribution<long>(1, calls)(random), i % 2 == 0);
+      check(run, std::uniform_int_distribution<long>(1, calls)(random), static_cast<Loss>(i % 3));
   }
 }
 
@@ -135,7 +138,7 @@ class SlowKillTest : public KillTest {};
 TEST_F(SlowKillTest, LosesNoFrameAtAnyCall) {
   for (const ShortRun& run : short_runs) {
     const long calls = count_calls(run);
-    for (long call = 1; call <= calls; ++call) check(run, call, call % 2 == 0);
+    for (long call = 1; call <= calls; ++call) check(run, call, static_cast<Loss>(call % 3));
   }
 }
 
