@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "io/durable_files.hpp"
-#include "io/file_names.hpp"
+#include "io/record/durable_files.hpp"
+#include "io/record/file_names.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io {

@@ -11,10 +11,10 @@
 #include <system_error>
 #include <utility>
 
-#include "io/config_changes.hpp"
-#include "io/file_names.hpp"
-#include "io/publication.hpp"
-#include "io/record_reader.hpp"
+#include "io/record/config_changes.hpp"
+#include "io/record/file_names.hpp"
+#include "io/record/publication.hpp"
+#include "io/record/record_reader.hpp"
 #include "io/result_json.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"

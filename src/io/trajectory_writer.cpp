@@ -9,10 +9,11 @@
 #include <system_error>
 #include <utility>
 
-#include "io/durable_files.hpp"
-#include "io/file_names.hpp"
-#include "io/publication.hpp"
-#include "io/trajectory_file.hpp"
+#include "io/record/durable_files.hpp"
+#include "io/record/file_names.hpp"
+#include "io/record/publication.hpp"
+#include "io/record/trajectory_file.hpp"
+#include "io/record/xdmf_file.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/verdict_files.hpp"
@@ -173,11 +174,17 @@ class TrajectoryWriter::Writer {
   void add_frame(const relax::StepView& view) {
     file_.add_frame(whole(view).view());
     commit();
-    if (config_.output.paraview)
-      write_text_file(folder_ / file_names::part_xdmf,
-                      xdmf_text(file_names::part, run_, file_.frames()));
+    if (config_.output.paraview) announce();
     last_frame_step_ = view.report.counts.steps;
     if (Clock::now() >= next_checkpoint_) write_checkpoint(view);
+  }
+
+  void announce() {
+    if (xdmf_) {
+      xdmf_->add(file_.frames().back());
+    } else {
+      xdmf_.emplace(folder_ / file_names::part_xdmf, file_names::part, run_, file_.frames());
+    }
   }
 
   /// The state alone, for the case that the record is damaged.
@@ -220,6 +227,7 @@ class TrajectoryWriter::Writer {
   std::optional<RecordEnd> end_;  ///< of a run that goes on in its folder
   std::string run_;
   TrajectoryFile file_;
+  std::optional<XdmfFile> xdmf_;  ///< from the first frame on
   bool has_name_ = false;
   mesh::Positions last_positions_;
   long last_frame_step_ = -1;

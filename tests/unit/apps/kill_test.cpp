@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/record_reader.hpp"
+#include "io/record/record_reader.hpp"
 #include "program_test.hpp"
 #include "programs.hpp"
 #include "vesica/io/run_reader.hpp"

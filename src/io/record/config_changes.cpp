@@ -1,4 +1,4 @@
-#include "io/config_changes.hpp"
+#include "io/record/config_changes.hpp"
 
 #include <fmt/format.h>
 

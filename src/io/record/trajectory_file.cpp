@@ -1,11 +1,11 @@
-#include "io/trajectory_file.hpp"
+#include "io/record/trajectory_file.hpp"
 
 #include <fmt/format.h>
 #include <map>
 #include <utility>
 
-#include "io/attributes.hpp"
-#include "io/run_description.hpp"
+#include "io/record/attributes.hpp"
+#include "io/record/run_description.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/relax/verdict.hpp"
 

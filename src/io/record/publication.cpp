@@ -1,4 +1,4 @@
-#include "io/publication.hpp"
+#include "io/record/publication.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/durable_files.hpp"
-#include "io/file_names.hpp"
-#include "io/record_reader.hpp"
+#include "io/record/durable_files.hpp"
+#include "io/record/file_names.hpp"
+#include "io/record/record_reader.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io {

@@ -1,4 +1,4 @@
-#include "io/run_description.hpp"
+#include "io/record/run_description.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,8 +12,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "io/attributes.hpp"
-#include "io/record_reader.hpp"
+#include "io/record/attributes.hpp"
+#include "io/record/record_reader.hpp"
 #include "vesica/core/version.hpp"
 #include "vesica/flow/library_versions.hpp"
 #include "vesica/linalg/library_versions.hpp"

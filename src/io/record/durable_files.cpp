@@ -1,4 +1,4 @@
-#include "io/durable_files.hpp"
+#include "io/record/durable_files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

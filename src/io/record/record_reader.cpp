@@ -1,4 +1,4 @@
-#include "io/record_reader.hpp"
+#include "io/record/record_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "io/attributes.hpp"
+#include "io/record/attributes.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io {

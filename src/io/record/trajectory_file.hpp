@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "io/hdf5/writable_file.hpp"
-#include "io/record_reader.hpp"
-#include "io/time_series.hpp"
-#include "io/xdmf.hpp"
+#include "io/record/record_reader.hpp"
+#include "io/record/time_series.hpp"
+#include "io/record/xdmf.hpp"
 #include "vesica/config/config.hpp"
 #include "vesica/model/model.hpp"
 #include "vesica/relax/observer.hpp"

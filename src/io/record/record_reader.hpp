@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/hdf5/readable_file.hpp"
-#include "io/xdmf.hpp"
+#include "io/record/xdmf.hpp"
 #include "vesica/compare/comparison.hpp"
 #include "vesica/relax/observer.hpp"
 #include "vesica/setup/case.hpp"
