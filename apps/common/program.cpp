@@ -1,7 +1,9 @@
 #include "program.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -15,12 +17,14 @@ namespace {
 std::atomic<int> received_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may store it");
 
-/// Blocks SIGINT and SIGTERM in the calling thread, or lets them through.
+/// Those that end a run after its present step.
+constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE, SIGXFSZ};
+
+/// Blocks them in the calling thread, or lets them through.
 void mask_signals(int how) {
   sigset_t signals{};
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int signal : ending_signals) sigaddset(&signals, signal);
   pthread_sigmask(how, &signals, nullptr);
 }
 
@@ -31,6 +35,13 @@ using Initialiser = void (*)();
 [[gnu::section(".preinit_array"), gnu::used]] const Initialiser before_libraries = [] {
   mask_signals(SIG_BLOCK);
 };
+
+/// Where standard input, output or error is closed, a file that is opened would take its place and
+/// get what is printed.
+void open_standard_descriptors() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);
+}
 
 }  // namespace
 
@@ -46,7 +57,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_flag("--quiet", options.is_quiet, "print nothing but warnings and errors");
   app.footer(
       "Exit status: 0 converged; 1 stopped before convergence; 2 bad input;\n"
-      "3 numerical failure; 4 files could not be read or written; 130 or 143 interrupted.");
+      "3 numerical failure; 4 files could not be read or written; 128 + signal interrupted.");
 }
 
 run::Options library_options(const RunOptions& options, const std::string& case_file) {
@@ -60,11 +71,16 @@ run::Options library_options(const RunOptions& options, const std::string& case_
 }
 
 const std::atomic<int>& catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { received_signal.store(signal); };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : ending_signals) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;  // nohup, for example
+    struct sigaction action {};
+    action.sa_handler = [](int number) { received_signal.store(number); };
+    const bool is_of_people = signal == SIGINT || signal == SIGTERM;
+    if (is_of_people) action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
   return received_signal;
 }
 
@@ -73,6 +89,7 @@ int run_program(std::string_view program, const std::function<int()>& run) {
     std::cerr << program << ": " << error.what() << '\n';
     return status;
   };
+  open_standard_descriptors();
   mask_signals(SIG_UNBLOCK);
   try {
     return run();

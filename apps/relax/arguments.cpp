@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "vesica/io/run_reader.hpp"
+
 namespace vesica {
 namespace {
 
@@ -12,7 +14,8 @@ void add_options(CLI::App& app, Arguments& arguments, std::string& rtol, bool& w
   add_run_options(app, arguments.options);
   app.add_option("case", arguments.case_file, "case file")->type_name("CASE.toml");
   app.add_option("--resume", arguments.resumed,
-                 "start from the final state of the run in this folder; time goes on")
+                 "go on with the run in this folder, from its last state; without a case file with "
+                 "its own case, without --out in its own folder")
       ->type_name("DIR");
   app.add_option("--write-start", arguments.start_file,
                  "write the start as .vtu, .ply or .obj and run nothing")
@@ -40,7 +43,7 @@ ParsedCommandLine parse_command_line(int argc, char** argv) {
     config::write_template(std::cout);
     return {};
   }
-  if (arguments.case_file.empty()) {
+  if (arguments.case_file.empty() && arguments.resumed.empty()) {
     std::cerr << "vesica-relax: a case file is needed; --help tells more, --template prints one\n";
     return {std::nullopt, bad_input};
   }
@@ -49,7 +52,10 @@ ParsedCommandLine parse_command_line(int argc, char** argv) {
 }
 
 config::RunConfig read_config(const Arguments& arguments) {
-  config::RunConfig config = config::read_config(arguments.case_file, arguments.options.overrides);
+  const std::vector<std::string>& overrides = arguments.options.overrides;
+  config::RunConfig config = arguments.case_file.empty()
+                                 ? io::recorded_config(arguments.resumed, overrides)
+                                 : config::read_config(arguments.case_file, overrides);
   if (!arguments.options.directory.empty()) config.output.directory = arguments.options.directory;
   return config;
 }

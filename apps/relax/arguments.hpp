@@ -10,7 +10,7 @@ namespace vesica {
 
 /// The command line of vesica-relax.
 struct Arguments {
-  std::string case_file;
+  std::string case_file;  ///< empty: that of the run to go on with
   RunOptions options;
   std::string start_file;  ///< the start is written here, and nothing runs; empty: a run
   std::string resumed;     ///< folder of the run to go on with; empty: none
@@ -25,7 +25,8 @@ struct ParsedCommandLine {
 
 [[nodiscard]] ParsedCommandLine parse_command_line(int argc, char** argv);
 
-/// The case file with what the command line sets. Throws ConfigError.
+/// The case file, or the case of the run that is resumed, with what the command line sets. Throws
+/// ConfigError and IoError.
 [[nodiscard]] config::RunConfig read_config(const Arguments& arguments);
 
 }  // namespace vesica

@@ -1,8 +1,11 @@
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "arguments.hpp"
 #include "common/program.hpp"
 #include "vesica/config/config.hpp"
+#include "vesica/io/run_reader.hpp"
 #include "vesica/io/surface_writer.hpp"
 #include "vesica/io/verdict_files.hpp"
 #include "vesica/relax/verdict.hpp"
@@ -26,6 +29,21 @@ int write_start(const config::RunConfig& config, const Arguments& arguments) {
               << start.triangulation->num_triangles() << " triangles\n";
   }
   return 0;
+}
+
+bool goes_on_in_place(const config::RunConfig& config, const Arguments& arguments) {
+  std::error_code ignored;
+  return !arguments.resumed.empty() &&
+         std::filesystem::equivalent(config.output.directory, arguments.resumed, ignored);
+}
+
+/// Says that a run has nothing left to do.
+int conclude(const relax::Verdict& verdict, const Arguments& arguments) {
+  if (!arguments.options.is_quiet) {
+    std::cout << arguments.resumed << ": the run has converged at t = " << verdict.time << ": "
+              << verdict.outcome.reason << "; nothing is left to do\n";
+  }
+  return relax::exit_status(verdict.outcome);
 }
 
 int relax_case(const config::RunConfig& config, const Arguments& arguments) {
@@ -59,7 +77,11 @@ int main(int argc, char** argv) {
     if (!command_line.arguments) return command_line.status;
     const Arguments& arguments = *command_line.arguments;
     const config::RunConfig config = read_config(arguments);
-    return arguments.start_file.empty() ? relax_case(config, arguments)
-                                        : write_start(config, arguments);
+    if (!arguments.start_file.empty()) return write_start(config, arguments);
+    if (goes_on_in_place(config, arguments)) {
+      if (const auto verdict = io::find_conclusion(config, arguments.resumed))
+        return conclude(*verdict, arguments);
+    }
+    return relax_case(config, arguments);
   });
 }

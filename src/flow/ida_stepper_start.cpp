@@ -14,6 +14,7 @@ namespace {
 constexpr int max_initial_iterations = 15;
 constexpr double initial_tolerance = 1e-8;
 constexpr double slow_convergence = 0.2;
+constexpr double round_off = 1e-6;  // changes below it that no longer fall are round-off
 
 }  // namespace
 
@@ -28,7 +29,8 @@ void IdaStepper::go_on_from_start(const solve::Restart& restart) {
 /// Newton's method for x', c', kappa and lambda at given x and c, just after the time of the state:
 /// where a schedule has a kink, what comes counts. The factors are renewed only when the changes do
 /// not fall fast: the equations are linear but for kappa, which starts from the recovered shape
-/// operator.
+/// operator. Near rest the rates are small differences of large forces, and their round-off may be
+/// above the tolerance.
 void IdaStepper::find_initial_rates() {
   const Eigen::VectorXd differential = problem_->differential_mask();
   const double time = std::nextafter(state_.time, std::numeric_limits<double>::infinity());
@@ -45,7 +47,8 @@ void IdaStepper::find_initial_rates() {
       y_rate_ -= rates;
       const double size =
           values.norm() / y_.norm() + rates.norm() / (y_rate_.norm() + resting_rate());
-      if (size <= initial_tolerance) return;
+      const bool falls = iteration == 0 || size < last_change / 2;
+      if (size <= (falls ? initial_tolerance : round_off)) return;
       needs_factors = iteration > 0 && size > slow_convergence * last_change;
       last_change = size;
     }

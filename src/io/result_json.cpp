@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "vesica/core/error.hpp"
@@ -122,7 +120,7 @@ class Reader {
     } else if constexpr (std::is_same_v<T, std::string>) {
       value = get<T>(pointer, &Json::is_string, "must be a text");
     } else if constexpr (std::is_integral_v<T>) {
-      value = get<T>(pointer, &Json::is_number_integer, "must be a whole number");
+      value = whole_number<T>(pointer);
     } else {
       value = at(pointer).is_null()  // a number that is not finite
                   ? std::numeric_limits<T>::quiet_NaN()
@@ -143,9 +141,10 @@ class Reader {
     for (std::size_t i = 0; i < list.size(); ++i) read(fmt::format("{}/{}", pointer, i), list[i]);
   }
   void read(const std::string& pointer, std::vector<relax::MeshChange>& changes) const {
-    std::size_t count = 0;
-    read(pointer, count);
-    changes.resize(count);
+    constexpr std::int32_t most = 1'000'000;
+    const auto count = whole_number<std::int32_t>(pointer);
+    if (count > most) refuse(pointer, fmt::format("must be at most {}", most));
+    changes.resize(static_cast<std::size_t>(count));
   }
   void read(const std::string& pointer, std::vector<PhaseDomain>& domains) const {
     domains.clear();
@@ -176,6 +175,15 @@ class Reader {
     if (!(value.*is_right)()) refuse(pointer, rule);
     return value.get<T>();
   }
+  /// All of a verdict are counts.
+  template <class T>
+  [[nodiscard]] T whole_number(const std::string& pointer) const {
+    const auto value =
+        get<std::int64_t>(pointer, &Json::is_number_integer, "must be a whole number");
+    if (value < 0 || value > static_cast<std::int64_t>(std::numeric_limits<T>::max()))
+      refuse(pointer, fmt::format("must be from 0 to {}", std::numeric_limits<T>::max()));
+    return static_cast<T>(value);
+  }
   [[nodiscard]] std::size_t size(const std::string& pointer) const {
     if (!at(pointer).is_array()) refuse(pointer, "must be an array");
     return at(pointer).size();
@@ -195,14 +203,9 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-Json parsed(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) {
-    throw IoError(fmt::format("{}: cannot be read ({})", path.string(),
-                              std::generic_category().message(errno)));
-  }
+Json parsed(const std::filesystem::path& path, std::string_view text) {
   try {
-    return Json::parse(file);
+    return Json::parse(text);
   } catch (const Json::exception& error) {
     throw IoError(fmt::format("{}: is no JSON: {}", path.string(), error.what()));
   }
@@ -230,8 +233,8 @@ std::string to_json(const compare::Comparison& comparison) {
   return text_of(json);
 }
 
-relax::Verdict read_verdict(const std::filesystem::path& file) {
-  const Json json = parsed(file);
+relax::Verdict read_verdict(const std::filesystem::path& file, std::string_view text) {
+  const Json json = parsed(file, text);
   relax::Verdict verdict;
   relax::Verdict::fields(verdict, Reader(file, json));
   relax::Outcome& outcome = verdict.outcome;

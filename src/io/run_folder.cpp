@@ -7,9 +7,10 @@
 
 #include <array>
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
+#include "io/record/durable_files.hpp"
+#include "io/record/file_names.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io {
@@ -17,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> files_of_a_run{"trajectory.h5", "trajectory.part.h5",
-                                                         "verdict.json", "case.toml"};
+constexpr std::array<const char*, 5> files_of_a_run{file_names::record, file_names::part,
+                                                    file_names::verdict, file_names::configuration,
+                                                    file_names::checkpoint};
 
 std::string last_system_error() { return std::generic_category().message(errno); }
 
@@ -48,8 +50,12 @@ void check_run_folder(const fs::path& folder, const fs::path& case_file, bool ov
                                   folder.string()));
   }
   if (fs::is_directory(folder, ignored)) const FolderLock free(folder);
-  if (overwrite) return;
-  for (const std::string_view name : files_of_a_run) {
+  if (!overwrite) check_holds_no_run(folder);
+}
+
+void check_holds_no_run(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* name : files_of_a_run) {
     if (fs::exists(folder / name, ignored)) {
       throw ConfigError(fmt::format(
           "{}: already holds a run ({}); choose another output folder or give --overwrite",
@@ -79,19 +85,8 @@ void create_run_folder(const fs::path& folder) {
 
 void write_text_file(const fs::path& path, std::string_view text) {
   const fs::path temporary = path.string() + ".tmp";
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) {
-    const std::string reason = last_system_error();
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw IoError(fmt::format("{}: cannot be written ({})", path.string(), reason));
-  }
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error)
-    throw IoError(fmt::format("{}: cannot be written ({})", path.string(), error.message()));
+  write_durably(temporary, text);
+  rename_file(temporary, path);
 }
 
 }  // namespace vesica::io

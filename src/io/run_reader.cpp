@@ -2,11 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <memory>
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <limits>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
-#include "io/hdf5/readable_file.hpp"
+#include "io/record/config_changes.hpp"
+#include "io/record/file_names.hpp"
+#include "io/record/publication.hpp"
+#include "io/record/record_reader.hpp"
 #include "io/result_json.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
@@ -20,174 +28,240 @@ void check_has_ended(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw IoError(fmt::format("{}: no such folder", folder.string()));
-  for (const char* name : {"trajectory.h5", "case.toml", "verdict.json"}) {
+  for (const char* name : {file_names::record, file_names::configuration, file_names::verdict}) {
     if (fs::is_regular_file(folder / name, ignored)) continue;
-    const bool goes_on = fs::exists(folder / "trajectory.part.h5", ignored);
+    const bool can_go_on = fs::exists(folder / file_names::part, ignored) ||
+                           fs::exists(folder / file_names::record, ignored);
     throw IoError(fmt::format("{}: holds no finished run ({} is missing{})", folder.string(), name,
-                              goes_on ? "; the run goes on or broke off" : ""));
+                              can_go_on ? "; the run goes on or broke off: vesica-relax --resume "
+                                          "completes it"
+                                        : ""));
   }
 }
 
-/// A run that has ended or, where there is none, one that broke off.
-struct Resumable {
-  fs::path trajectory;
-  bool has_ended = true;
-};
-
-Resumable find_resumable(const fs::path& folder) {
-  const fs::path part = folder / "trajectory.part.h5";
+bool is_there(const fs::path& path) {
   std::error_code ignored;
-  if (fs::exists(folder / "trajectory.h5", ignored) || !fs::exists(part, ignored)) {
-    check_has_ended(folder);
-    return {folder / "trajectory.h5", true};
-  }
+  return fs::exists(path, ignored);
+}
+
+/// The record in a folder: that of a run that broke off or, where there is none, of one that has
+/// ended. Throws ConfigError when a run is writing to it.
+fs::path record_in(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw IoError(fmt::format("{}: no such folder", folder.string()));
   const FolderLock nobody_writes(folder);
-  return {part, false};
+  return folder / (is_there(folder / file_names::part) ? file_names::part : file_names::record);
 }
 
-Eigen::VectorXd vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-/// The frames of a trajectory as states.
-class FrameReader {
- public:
-  explicit FrameReader(const hdf5::ReadableFile& file) : file_(file) {
-    if (file.count("/frames") == 0) file.refuse("/frames", "is empty");
-  }
-  [[nodiscard]] problem::State last() const { return at(num_frames() - 1); }
-  /// A run that broke off may have done so within its last frame.
-  [[nodiscard]] problem::State last_complete() const {
-    if (num_frames() == 1) return last();
-    try {
-      return last();
-    } catch (const IoError&) {
-      return at(num_frames() - 2);
-    }
-  }
-  [[nodiscard]] std::size_t num_frames() const { return file_.count("/frames"); }
-  [[nodiscard]] problem::State at(std::size_t index) const {
-    const std::string group = fmt::format("/frames/{:06}", index);
-    problem::State state;
-    state.time = file_.number_attribute(group, "time");
-    state.damping = file_.number_attribute(group, "damping");
-    state.values.positions = positions(group + "/positions");
-    const Eigen::Index num_nodes = state.values.positions.rows();
-    state.triangulation = triangulation(group + "/mesh/triangles", num_nodes);
-    state.values.mean_curvature = scalar(group + "/mean_curvature", num_nodes);
-    state.rates.positions = positions(group + "/velocity");
-    state.rates.mean_curvature = Eigen::VectorXd::Zero(num_nodes);
-    if (file_.has(group + "/order_parameter")) {
-      state.values.order_parameter = scalar(group + "/order_parameter", num_nodes);
-      state.rates.order_parameter = Eigen::VectorXd::Zero(num_nodes);
-    }
-    model::PerConstraint::fields(state.values.multipliers, [&](const Field& field, auto& value) {
-      value = file_.find_attribute(group, fmt::format("multiplier_{}", field.name));
-    });
-    return state;
-  }
-
- private:
-  [[nodiscard]] mesh::Positions positions(const std::string& path) const {
-    const std::vector<double> values = file_.numbers(path);
-    if (values.size() % 3 != 0) file_.refuse(path, "must have three columns");
-    return Eigen::Map<const mesh::Positions>(values.data(),
-                                             static_cast<Eigen::Index>(values.size() / 3), 3);
-  }
-  [[nodiscard]] Eigen::VectorXd scalar(const std::string& path, Eigen::Index num_nodes) const {
-    Eigen::VectorXd values = vector_of(file_.numbers(path));
-    if (values.size() != num_nodes) file_.refuse(path, "must have one value a node");
-    return values;
-  }
-  [[nodiscard]] std::shared_ptr<const mesh::Triangulation> triangulation(
-      const std::string& path, Eigen::Index num_nodes) const {
-    const std::vector<std::int32_t> nodes = file_.integers(path);
-    if (nodes.size() % 6 != 0) file_.refuse(path, "must have six columns");
-    std::vector<mesh::QuadraticTriangle> triangles(nodes.size() / 6);
-    for (std::size_t i = 0; i < nodes.size(); ++i) triangles[i / 6][i % 6] = nodes[i];
-    try {
-      return std::make_shared<const mesh::Triangulation>(std::move(triangles),
-                                                         static_cast<mesh::NodeIndex>(num_nodes));
-    } catch (const ConfigError& error) {
-      file_.refuse(path, error.what());
-    }
-  }
-
-  const hdf5::ReadableFile& file_;
+/// From where a run can go on: the record or, where that is damaged or gone, a checkpoint.
+struct Source {
+  fs::path path;
+  bool is_checkpoint = false;
+  std::string warning;
 };
 
-setup::Origin origin_of(const hdf5::ReadableFile& file) {
-  const std::string group = "/origin";
-  if (!file.has(group)) file.refuse(group, "is missing: an older version wrote the file");
-  setup::Origin origin;
-  model::Measures::fields(origin.measures, [&](const Field& field, auto& value) {
-    value = file.find_attribute(group, std::string(field.name));
-    if (!value && field.name != model::PhaseDifference::key)
-      file.refuse(fmt::format("{}@{}", group, field.name), "is missing");
+Source source_in(const fs::path& folder) {
+  Source source{record_in(folder), false, {}};
+  if (!is_there(source.path) && !is_there(folder / file_names::checkpoint) &&
+      !is_there(folder / file_names::previous_checkpoint)) {
+    throw IoError(
+        fmt::format("{}: holds no run ({} is missing)", folder.string(), file_names::record));
+  }
+  for (const fs::path& path :
+       {source.path, folder / file_names::checkpoint, folder / file_names::previous_checkpoint}) {
+    try {
+      const RecordReader record(path);
+      (void)record.configuration();
+      (void)record.origin();
+      const double time = record.last_good().state.time;
+      if (source.warning.empty()) return source;
+      return {path, true,
+              fmt::format("{}; the run goes on from {} at t = {:g}", source.warning,
+                          path.filename().string(), time)};
+    } catch (const IoError& error) {
+      if (source.warning.empty()) source.warning = error.what();
+    }
+  }
+  throw IoError(source.warning);
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) {
+    throw IoError(fmt::format("{}: cannot be read ({})", path.string(),
+                              std::generic_category().message(errno)));
+  }
+  return std::move(text).str();
+}
+
+/// Its values are checked one by one; then it must be the verdict that the record holds.
+relax::Verdict checked_verdict(const fs::path& folder, const RecordReader& record) {
+  const fs::path path = folder / file_names::verdict;
+  const std::string text = text_of(path);
+  relax::Verdict verdict = read_verdict(path, text);
+  if (verdict.run.value_or("") != record.run()) {
+    throw IoError(fmt::format("{}: belongs to the run {}, {} to the run {}", path.string(),
+                              verdict.run.value_or("without a number"), file_names::record,
+                              record.run()));
+  }
+  if (record.verdict().value_or(text) != text) {
+    throw IoError(fmt::format("{}: was changed: it is not the verdict that {} holds", path.string(),
+                              file_names::record));
+  }
+  return verdict;
+}
+
+config::RunConfig checked_config(const fs::path& folder, const RecordReader& record) {
+  const fs::path path = folder / file_names::configuration;
+  const std::string text = text_of(path);
+  const std::string run = record.run();
+  if (!run.empty() && text.starts_with("# run ") && !text.starts_with(first_line(run))) {
+    throw IoError(fmt::format("{}: belongs to another run than {}, {}", path.string(),
+                              file_names::record, run));
+  }
+  return config::read_config_text(text, path.string(), {});
+}
+
+/// Refuses what a resumed run cannot take, names what else has changed.
+std::vector<std::string> warnings_of(const std::vector<ConfigChange>& changes) {
+  std::vector<std::string> warnings;
+  for (const auto& [key, before, after] : changes) {
+    if (key.starts_with("shape.") || key.starts_with("phase.")) {
+      throw ConfigError(fmt::format(
+          "{} = {}: a resumed run goes on from its last state, which began with {}: leave it so",
+          key, after.empty() ? "none" : after, before.empty() ? "none" : before));
+    }
+    warnings.push_back(fmt::format("the run goes on with {} = {} instead of {}", key,
+                                   after.empty() ? "none" : after,
+                                   before.empty() ? "none" : before));
+  }
+  return warnings;
+}
+
+/// The rates of the last state hold as long as only limits and files are other ones.
+bool keep_the_equations(const std::vector<ConfigChange>& changes) {
+  return std::all_of(changes.begin(), changes.end(), [](const ConfigChange& change) {
+    return change.key.starts_with("stop.") || change.key.starts_with("output.");
   });
-  origin.is_sphere = file.number_attribute(group, "is_sphere") != 0;
-  return origin;
 }
 
-compare::EnergyHistory history_of(const hdf5::ReadableFile& file) {
-  return {file.numbers("/series/step"), file.numbers("/series/seconds_processor"),
-          file.numbers("/series/energy_total")};
+config::RunConfig config_of(const RecordReader& record, const fs::path& path,
+                            std::span<const std::string> overrides) {
+  return config::read_config_text(record.configuration(), path.string() + ":/configuration/toml",
+                                  overrides);
 }
 
-/// The exit status of an interrupted run is 128 + signal.
-int signal_of(const hdf5::ReadableFile& file) {
-  return static_cast<int>(file.number_attribute("/outcome", "exit_status")) - 128;
+/// Times of a schedule that lie before the run goes on were skipped.
+std::vector<std::string> warnings_of_past(const setup::Case& vesicle,
+                                          const std::vector<ConfigChange>& changes) {
+  std::vector<std::string> warnings;
+  for (const auto& [table, name, schedule] : model::schedules_of(vesicle.model)) {
+    const std::string key = fmt::format("{}.{}", table, name);
+    const bool is_new = std::any_of(changes.begin(), changes.end(),
+                                    [&](const auto& change) { return change.key == key; });
+    if (!is_new || schedule.is_constant()) continue;
+    const double now = vesicle.start.time;
+    const double first = schedule.next_kink(-std::numeric_limits<double>::infinity());
+    if (first >= now) continue;
+    warnings.push_back(fmt::format(
+        "{} = {}: begins before t = {:g}, where the run goes on: its value is {:g} from there", key,
+        text_of(schedule), now, schedule.value(now)));
+  }
+  return warnings;
 }
 
 }  // namespace
 
 compare::EnergyHistory read_history(const fs::path& folder) {
-  return history_of(hdf5::ReadableFile(folder / "trajectory.h5"));
+  return RecordReader(folder / file_names::record).history();
 }
 
 Frame read_frame(const fs::path& folder, std::optional<std::size_t> index) {
-  std::error_code ignored;
-  const bool goes_on = !fs::exists(folder / "trajectory.h5", ignored) &&
-                       fs::exists(folder / "trajectory.part.h5", ignored);
-  const hdf5::ReadableFile file(folder / (goes_on ? "trajectory.part.h5" : "trajectory.h5"));
-  const FrameReader frames(file);
-  const std::size_t count = frames.num_frames();
+  const bool goes_on =
+      !is_there(folder / file_names::record) && is_there(folder / file_names::part);
+  const RecordReader record(folder / (goes_on ? file_names::part : file_names::record));
+  const std::size_t count = record.num_frames();
   if (index && *index >= count) {
     throw ConfigError(
         fmt::format("{}: frame {}: must be in [0, {})", folder.string(), *index, count));
   }
   const std::size_t chosen = index.value_or(count - 1);
-  return {frames.at(chosen), chosen, count};
+  return {record.frame(chosen).state, chosen, count};
 }
 
 FinishedRun read_run(const fs::path& folder) {
   check_has_ended(folder);
   FinishedRun run;
-  run.config = config::read_config((folder / "case.toml").string(), {});
-  const hdf5::ReadableFile file(folder / "trajectory.h5");
-  const FrameReader frames(file);
-  run.state = frames.last();
-  run.model = setup::case_of(run.config, run.state, origin_of(file)).model;
-  run.verdict = read_verdict(folder / "verdict.json");
-  if (run.verdict.num_nodes != run.state.triangulation->num_nodes())
-    file.refuse("/frames", "and verdict.json differ in the number of nodes");
+  const RecordReader record(folder / file_names::record);
+  run.config = checked_config(folder, record);
+  run.verdict = checked_verdict(folder, record);
+  run.state = record.last().state;
+  const fs::path path = folder / file_names::record;
+  if (run.state.is_two_phase() != run.config.phase.has_value()) {
+    throw IoError(fmt::format("{}: the last frame has {} order_parameter, {} has {} table [phase]",
+                              path.string(), run.config.phase ? "no" : "an",
+                              file_names::configuration, run.config.phase ? "a" : "no"));
+  }
+  run.model = setup::case_of(run.config, run.state, record.origin()).model;
+  if (run.verdict.num_nodes != run.state.triangulation->num_nodes()) {
+    throw IoError(
+        fmt::format("{}: /frames and verdict.json differ in the number of nodes", path.string()));
+  }
   if (run.verdict.outcome.status == relax::RunStatus::interrupted)
-    run.verdict.outcome.signal = signal_of(file);
-  run.history = history_of(file);
+    run.verdict.outcome.signal = record.signal();
+  run.history = record.history();
   return run;
 }
 
 setup::Case resumed_case(const config::RunConfig& config, const fs::path& folder) {
-  const Resumable run = find_resumable(folder);
-  const hdf5::ReadableFile file(run.trajectory);
-  const FrameReader frames(file);
-  problem::State last = run.has_ended ? frames.last() : frames.last_complete();
-  if (last.is_two_phase() != config.phase.has_value()) {
+  const Source source = source_in(folder);
+  const RecordReader record(source.path);
+  RecordFrame frame = record.last_good();
+  if (frame.state.is_two_phase() != config.phase.has_value()) {
     throw ConfigError(fmt::format("{}: the run has {} phase field, the case has {}",
                                   folder.string(), config.phase ? "no" : "a",
                                   config.phase ? "one" : "none"));
   }
-  return setup::case_of(config, std::move(last), origin_of(file));
+  const std::vector<ConfigChange> changes =
+      changes_between(config_of(record, source.path, {}), config);
+  std::vector<std::string> warnings = warnings_of(changes);
+  setup::Case vesicle = setup::case_of(config, std::move(frame.state), record.origin());
+  for (std::string& past : warnings_of_past(vesicle, changes)) warnings.push_back(std::move(past));
+  for (const std::string& damage : {source.warning, frame.warning})
+    if (!damage.empty()) warnings.push_back(damage);
+  vesicle.warnings.insert(vesicle.warnings.end(), warnings.begin(), warnings.end());
+  const double step_size = keep_the_equations(changes) ? frame.step_size : 0;
+  vesicle.resumed = setup::Resumption{folder,      record.run(), record.num_frames(),
+                                      frame.index, step_size,    source.is_checkpoint};
+  return vesicle;
+}
+
+config::RunConfig recorded_config(const fs::path& folder, std::span<const std::string> overrides) {
+  const fs::path path = source_in(folder).path;
+  config::RunConfig config = config_of(RecordReader(path), path, overrides);
+  config.output.directory = folder.string();
+  return config;
+}
+
+std::optional<relax::Verdict> find_conclusion(const config::RunConfig& config,
+                                              const fs::path& folder) {
+  const fs::path path = source_in(folder).path;
+  std::optional<relax::Verdict> verdict;
+  {
+    const RecordReader record(path);
+    const std::optional<std::string> text = record.verdict();
+    if (!text) return std::nullopt;
+    verdict = read_verdict(path, *text);
+    const bool is_final =
+        verdict->outcome.status == relax::RunStatus::converged &&
+        changes_between(config_of(record, path, {}), config::resolved(config)).empty();
+    if (!is_final) return std::nullopt;
+  }
+  const FolderLock lock(folder);
+  if (is_unpublished(folder)) publish(folder);
+  return verdict;
 }
 
 }  // namespace vesica::io

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
+#include <cstring>
 #include <string>
 
 namespace vesica::relax {
 namespace {
 
 std::string name_of_signal(int signal) {
-  if (signal == SIGINT) return "SIGINT";
-  if (signal == SIGTERM) return "SIGTERM";
-  return fmt::format("signal {}", signal);
+  const char* const name = ::sigabbrev_np(signal);
+  return name == nullptr ? fmt::format("signal {}", signal) : fmt::format("SIG{}", name);
 }
 
 }  // namespace

@@ -71,8 +71,11 @@ class Run {
     return conclude(*end);
   }
 
-  /// For the way out through an exception: observers complete what they have.
-  void abandon(const std::string& reason) { conclude({RunStatus::numerical_failure, reason}); }
+  /// For the way out through an exception: observers complete what they have, and may not hide it.
+  void abandon(const std::string& reason) noexcept try {
+    if (outcome_.reason.empty()) conclude({RunStatus::numerical_failure, reason});
+  } catch (const std::exception&) {
+  }
 
  private:
   [[nodiscard]] const problem::State& state() const { return stepper_.current->state(); }
@@ -228,20 +231,10 @@ class Run {
       record_event();
     }
     const std::string found = report.reason.empty() ? "" : "; " + report.reason;
-    if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_)) {
+    if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_))
       return std::nullopt;
-    }
     if (const auto unresolved = Stationarity::unresolved(view())) return unresolved;
-    if (report_.gradient) {
-      return Stop{RunStatus::converged,
-                  fmt::format("distance to the minimum {:.2e} below {:g}, constraints met{}",
-                              *report_.gradient, stop_.gradient, found)};
-    }
-    return Stop{
-        RunStatus::converged,
-        fmt::format("normal velocity {:.2e} below {:g} k/R_c^3, multipliers at rest, constraints "
-                    "met{}",
-                    stationarity_.normal_velocity(diagnostics_), stop_.normal_velocity, found)};
+    return Stop{RunStatus::converged, stationarity_.rest_text(view()) + found};
   }
 
   Outcome conclude(const Stop& end) {

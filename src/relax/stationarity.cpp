@@ -83,6 +83,16 @@ bool Stationarity::multipliers_moved(const StepView& view) const {
   return change > options_.multiplier_change * largest;
 }
 
+std::string Stationarity::rest_text(const StepView& view) const {
+  if (view.report.gradient) {
+    return fmt::format("distance to the minimum {:.2e} below {:g}, constraints met",
+                       *view.report.gradient, options_.gradient);
+  }
+  return fmt::format(
+      "normal velocity {:.2e} below {:g} k/R_c^3, multipliers at rest, constraints met",
+      normal_velocity(view.diagnostics), options_.normal_velocity);
+}
+
 std::optional<Stop> Stationarity::unresolved(const StepView& view) {
   const auto& state = view.state;
   const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);

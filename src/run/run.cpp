@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "start_care.hpp"
@@ -11,7 +12,6 @@
 #include "vesica/io/run_folder.hpp"
 #include "vesica/io/run_reader.hpp"
 #include "vesica/io/trajectory_writer.hpp"
-#include "vesica/io/verdict_files.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/problem/scales.hpp"
 #include "vesica/relax/damping_controller.hpp"
@@ -25,9 +25,19 @@
 namespace vesica::run {
 namespace {
 
+/// Whether the run that is resumed goes on in its own folder.
+bool goes_on_in_place(const config::RunConfig& config, const Options& options) {
+  std::error_code ignored;
+  return !options.resumed.empty() &&
+         std::filesystem::equivalent(options.resumed, config.output.directory, ignored);
+}
+
 void check(const config::RunConfig& config, const Options& options) {
   if (options.writes_files) {
-    io::check_run_folder(config.output.directory, options.case_file.string(), options.overwrites);
+    const bool in_place = goes_on_in_place(config, options);
+    io::check_run_folder(config.output.directory,
+                         in_place ? std::filesystem::path() : options.case_file,
+                         options.overwrites || in_place);
   }
   (void)relax::resolved_damping(config.damping);
 }
@@ -69,13 +79,14 @@ struct Beginning {
   const std::vector<std::string>& notes;
 };
 
-/// Runs the loop with `observers` behind the progress, and the controllers of run.hpp.
+/// Runs the loop with `observers`, of which the first writes files if there are any, and the
+/// controllers of run.hpp.
 relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
                        const Options& options, Observers observers, const Beginning& beginning) {
   std::optional<io::Progress> progress;
-  if (options.progress != nullptr) {
-    observers.insert(observers.begin(),
-                     &progress.emplace(*options.progress, options.progress_style));
+  if (options.progress != nullptr) {  // behind the files: what it tells of is on the disk
+    const auto behind_files = observers.begin() + (options.writes_files ? 1 : 0);
+    observers.insert(behind_files, &progress.emplace(*options.progress, options.progress_style));
   }
   const problem::Scales scales = problem::scales_of(vesicle.model, vesicle.start);
   relax::DampingController damping(config.damping, scales);
@@ -99,14 +110,26 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   return outcome;
 }
 
+/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the integrator
+/// being lost, with a part of its last step. Where the rates no longer hold they are found anew.
+std::unique_ptr<solve::Stepper> first_stepper(const config::RunConfig& config,
+                                              const setup::Case& vesicle, FitStart& start) {
+  constexpr double part_of_last_step = 0.3;
+  const double step_size = vesicle.resumed ? vesicle.resumed->step_size : 0;
+  if (step_size > 0 && config.solver.method == solve::Method::ida)
+    return restart_stepper(config.solver, vesicle.model, vesicle.start,
+                           {part_of_last_step * step_size});
+  return make_stepper_somehow(config.solver, vesicle.model, start);
+}
+
 Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
                const Options& options) {
   std::unique_ptr<solve::Stepper> stepper;
   std::string failure;
   FitStart start{vesicle.start};
   try {
-    start = near_targets(vesicle, config.solver, options.interrupt);
-    stepper = make_stepper_somehow(config.solver, vesicle.model, start);
+    if (!vesicle.resumed) start = near_targets(vesicle, config.solver, options.interrupt);
+    stepper = first_stepper(config, vesicle, start);
   } catch (const SolverError& error) {
     failure = error.what();
   }
@@ -114,8 +137,9 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   std::optional<io::TrajectoryWriter> trajectory;
   if (options.writes_files) {
     io::create_run_folder(config.output.directory);
+    const bool replaces = options.overwrites || goes_on_in_place(config, options);
     observers.insert(observers.begin(),
-                     &trajectory.emplace(config.output.directory, config, vesicle));
+                     &trajectory.emplace(config.output.directory, config, vesicle, replaces));
   }
   relax::Outcome outcome;
   if (stepper) {
@@ -126,8 +150,11 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
       observer->finish({vesicle.start, outcome.report, outcome.diagnostics}, outcome);
   }
   const problem::State& state = stepper ? stepper->state() : vesicle.start;
-  return {relax::make_verdict(std::move(outcome), config.solver, vesicle.model, state), state,
-          vesicle.warnings};
+  if (trajectory && trajectory->verdict()) return {*trajectory->verdict(), state, vesicle.warnings};
+  Result result{relax::make_verdict(std::move(outcome), config.solver, vesicle.model, state), state,
+                vesicle.warnings};
+  result.verdict.warnings = vesicle.warnings;
+  return result;
 }
 
 }  // namespace
@@ -149,9 +176,7 @@ Result run(const config::RunConfig& given, const setup::Case& vesicle, const Opt
   const config::RunConfig config = config::resolved(given);
   return config::with_places(config, [&] {
     check(config, options);
-    Result result = relaxed(config, vesicle, options);
-    if (options.writes_files) io::write_verdict(config, result.verdict);
-    return result;
+    return relaxed(config, vesicle, options);
   });
 }
 

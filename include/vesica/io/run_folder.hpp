@@ -12,6 +12,9 @@ namespace vesica::io {
 void check_run_folder(const std::filesystem::path& folder, const std::filesystem::path& case_file,
                       bool overwrite);
 
+/// Throws ConfigError when the folder holds a run.
+void check_holds_no_run(const std::filesystem::path& folder);
+
 /// A lock that keeps other runs out of a folder, also those of other processes, as long as it lives
 /// (flock). Does nothing on file systems without locks.
 class FolderLock {
@@ -30,8 +33,8 @@ class FolderLock {
 /// Makes the folder and its parents. Throws IoError.
 void create_run_folder(const std::filesystem::path& folder);
 
-/// Writes a text to `<path>.tmp` and renames it to `path`, so that `path` is either the old file or
-/// the whole new one. Throws IoError.
+/// Writes a text to `<path>.tmp`, waits until the disk has it, and renames it to `path`, so that
+/// `path` is either the old file or the whole new one. Throws IoError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace vesica::io

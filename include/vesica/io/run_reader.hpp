@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "vesica/compare/comparison.hpp"
@@ -22,8 +24,8 @@ struct FinishedRun {
 };
 
 /// Reads a run that has ended back from `case.toml`, `trajectory.h5` and `verdict.json`. Throws
-/// IoError for a folder without an ended run and for files that cannot be read or contradict each
-/// other, ConfigError for a wrong `case.toml`.
+/// IoError for a folder without an ended run and for files that cannot be read, were damaged or
+/// belong to different runs, ConfigError for a wrong `case.toml`.
 [[nodiscard]] FinishedRun read_run(const std::filesystem::path& folder);
 
 /// A frame of a trajectory.
@@ -39,12 +41,24 @@ struct Frame {
                                std::optional<std::size_t> index);
 
 /// Makes the case of `config` with the final state of the run in `folder` as its start, rates and
-/// multipliers included; of a run that broke off (`trajectory.part.h5` alone) the last frame that
-/// is complete. Time goes on. "initial" is the start of the first run of such a chain. Throws what
-/// read_run throws, and ConfigError when a run is writing to the folder or when one has a phase
-/// field and the other not.
+/// multipliers included; of a run that goes no further (`trajectory.part.h5`) the last frame. Where
+/// frames were damaged the last one before them is taken, with a warning. Time goes on. "initial"
+/// is the start of the first run of such a chain. Warnings name the options that differ from those
+/// of the run. Throws what read_run throws, and ConfigError when a run is writing to the folder,
+/// when one has a phase field and the other not, and for another `[shape]` or `[phase]`.
 [[nodiscard]] setup::Case resumed_case(const config::RunConfig& config,
                                        const std::filesystem::path& folder);
+
+/// Reads the configuration of a run, ended or not, from its record, and then `overrides` as
+/// config::read_config does; its folder is that of the record. Throws IoError and ConfigError.
+[[nodiscard]] config::RunConfig recorded_config(const std::filesystem::path& folder,
+                                                std::span<const std::string> overrides);
+
+/// Returns the verdict of a run in `folder` that has converged and would go on with the options it
+/// had: nothing is left to do. Gives its files their names where a kill kept the run from that.
+/// Throws IoError and ConfigError.
+[[nodiscard]] std::optional<relax::Verdict> find_conclusion(const config::RunConfig& config,
+                                                            const std::filesystem::path& folder);
 
 /// Reads the energy history of a run that has ended. Throws IoError.
 [[nodiscard]] compare::EnergyHistory read_history(const std::filesystem::path& folder);

@@ -11,10 +11,6 @@ namespace vesica::io {
 /// Returns the JSON text of `verdict.json`; docs/output.md lists its keys.
 [[nodiscard]] std::string to_json(const relax::Verdict& verdict);
 
-/// Writes `verdict.json` and the effective configuration `case.toml` to the output folder of
-/// `config`. Throws IoError.
-void write_verdict(const config::RunConfig& config, const relax::Verdict& verdict);
-
 /// Prints the verdict as a table for people.
 void print_verdict(std::ostream& out, const relax::Verdict& verdict);
 /// Prints the files of a finished run, one a line.

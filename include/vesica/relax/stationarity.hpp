@@ -3,6 +3,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "vesica/core/fields.hpp"
 #include "vesica/model/model.hpp"
@@ -86,6 +87,8 @@ class Stationarity {
   [[nodiscard]] bool meets_velocity(const StepView& view) const;
   /// Tells whether every relative error of the constraints is below its threshold.
   [[nodiscard]] bool meets_constraints(const measure::Diagnostics& diagnostics) const;
+  /// Returns in words why a state at rest is an equilibrium.
+  [[nodiscard]] std::string rest_text(const StepView& view) const;
   /// Returns the stop of a state at rest whose mesh is too coarse for its shape, so that it is no
   /// result: normals of neighbouring sub-triangles differ by more than 53 degrees. Absent when the
   /// mesh resolves the shape.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/model/model.hpp"
@@ -13,6 +15,9 @@ namespace vesica::relax {
 
 /// The verdict on a run, the content of `verdict.json`.
 struct Verdict {
+  /// The random number that the files of a run share; absent in files of older versions.
+  std::optional<std::string> run;
+  std::vector<std::string> warnings;  ///< about the case, one sentence each
   relax::Outcome outcome;
   std::string method;  ///< name of the integrator, as in the case file
   /// Equations whose equilibrium the run looked for: the weak form ("paper") or the discrete energy
@@ -52,6 +57,8 @@ struct Verdict {
     visit(Field{"", "-", "numbers of the shape"}, self.shape);
     visit(Field{"events", "-", "in the order in which they were noticed"}, outcome.events);
     visit(Field{"", "-", "work"}, outcome.report);
+    visit(Field{"warnings", "-", "about the case, one sentence each"}, self.warnings);
+    visit(Field{"run", "-", "the number that the files of a run share"}, self.run);
   }
 };
 

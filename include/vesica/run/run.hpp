@@ -22,10 +22,12 @@ struct Options {
   bool writes_files = true;           ///< false: neither the output folder nor a file is made
   bool overwrites = false;            ///< true: a run that is in the output folder is replaced
   std::filesystem::path case_file{};  ///< is not to be replaced by the files of the run
-  std::filesystem::path resumed{};    ///< folder of the run to go on with; empty: a new start
-  std::ostream* progress = nullptr;   ///< gets the lines of io::Progress; null: nobody does
+  /// Folder of the run to go on with; empty: a new start. Where it is the output folder, too, the
+  /// files of that run go on, whatever `overwrites` says.
+  std::filesystem::path resumed{};
+  std::ostream* progress = nullptr;  ///< gets the lines of io::Progress; null: nobody does
   io::ProgressStyle progress_style = io::ProgressStyle::sparse;
-  std::vector<relax::Observer*> observers{};      ///< look after progress and trajectory
+  std::vector<relax::Observer*> observers{};      ///< look after trajectory and progress
   std::vector<relax::Controller*> controllers{};  ///< see `run` for their place in the order
   /// Number of the signal that is to end the run after the present step, 0 as long as there is
   /// none; a signal handler or another thread may store it. Null: the run is not interrupted.

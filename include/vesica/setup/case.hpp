@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,18 @@ struct Origin {
   bool is_sphere = false;  ///< then volume and area are one constraint
 };
 
+/// Where a case goes on with an older run.
+struct Resumption {
+  std::filesystem::path folder;
+  std::string run;             ///< the number that the files of that run share
+  std::size_t num_frames = 0;  ///< of its record
+  std::size_t frame = 0;       ///< the one that is the start, as a rule the last
+  /// Size of its last step where the rates of the start still hold, since no option of the equations
+  /// has changed; else 0 [time].
+  double step_size = 0;
+  bool is_checkpoint = false;  ///< the record is damaged, and the start that of a checkpoint
+};
+
 /// A case that is ready to be relaxed: model, start, and what "initial" stands for.
 struct Case {
   model::Model model;
@@ -26,6 +40,7 @@ struct Case {
   problem::State start;
   Origin origin;
   std::vector<std::string> warnings;  ///< legal input that probably is not meant, one sentence each
+  std::optional<Resumption> resumed{};
 };
 
 /// Makes surface, initial phase, targets and material of the configuration. Throws ConfigError when

@@ -2,27 +2,15 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <system_error>
 #include <utility>
+#include <vector>
 
-#include "io/hdf5/driver.hpp"
 #include "vesica/core/error.hpp"
 
 namespace vesica::io::hdf5 {
 namespace {
-
-herr_t keep_innermost(unsigned position, const H5E_error2_t* error, void* data) {
-  if (position == 0 && error->desc != nullptr) *static_cast<std::string*>(data) = error->desc;
-  return 0;
-}
-
-/// What the innermost function of HDF5 says of the last failure.
-std::string cause_of_failure() {
-  std::string cause = "no cause given";
-  if (H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &cause) < 0) return "no cause given";
-  return cause;
-}
 
 TypeHandle text_type(std::size_t length) {
   TypeHandle type(H5Tcopy(H5T_C_S1));
@@ -33,26 +21,16 @@ TypeHandle text_type(std::size_t length) {
   return type;
 }
 
+/// (rows, columns); (rows) for columns = 0.
+std::vector<hsize_t> shape_of(std::size_t count, std::size_t columns) {
+  if (columns == 0) return {count};
+  return {count / columns, columns};
+}
+
 }  // namespace
 
-SilentErrors::SilentErrors() {
-  if (H5Eget_auto2(H5E_DEFAULT, &function_, &data_) < 0 ||
-      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) < 0) {
-    throw IoError("HDF5 cannot be started");
-  }
-}
-
-SilentErrors::~SilentErrors() { (void)H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
-WritableFile::WritableFile(std::filesystem::path path) : path_(std::move(path)) {
-  const SilentErrors silent;
-  const PropertiesHandle access(check(H5Pcreate(H5P_FILE_ACCESS), "/", "H5Pcreate"));
-  driver_ = DriverHandle(check(register_driver(), "/", "H5FDregister"));
-  check_status(select_driver(access.get(), driver_.get(), first_error_.get()), "/",
-               "H5Pset_driver");
-  file_ = FileHandle(
-      check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "/", "H5Fcreate"));
-}
+WritableFile::WritableFile(std::filesystem::path path, Access access)
+    : path_(std::move(path)), file_(path_, access) {}
 
 hid_t WritableFile::check(hid_t id, const std::string& object, std::string_view call) const {
   if (id < 0) check_status(-1, object, call);
@@ -61,9 +39,10 @@ hid_t WritableFile::check(hid_t id, const std::string& object, std::string_view 
 
 void WritableFile::check_status(herr_t status, const std::string& object,
                                 std::string_view call) const {
-  if (status >= 0 && *first_error_ == 0) return;
-  const std::string cause =
-      *first_error_ == 0 ? cause_of_failure() : std::generic_category().message(*first_error_);
+  if (status >= 0 && file_.first_error() == 0) return;
+  const std::string cause = file_.first_error() == 0
+                                ? cause_of_failure()
+                                : std::generic_category().message(file_.first_error());
   throw IoError(
       fmt::format("{}: {} cannot be written, {}: {}", path_.string(), object, call, cause));
 }
@@ -71,42 +50,65 @@ void WritableFile::check_status(herr_t status, const std::string& object,
 void WritableFile::make_group(const std::string& path) {
   const SilentErrors silent;
   const GroupHandle group(
-      check(H5Gcreate2(file_.get(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), path,
+      check(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), path,
             "H5Gcreate"));
+}
+
+bool WritableFile::has(const std::string& path) const {
+  const SilentErrors silent;
+  return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+void WritableFile::remove(const std::string& path) {
+  const SilentErrors silent;
+  check_status(H5Ldelete(file_.id(), path.c_str(), H5P_DEFAULT), path, "H5Ldelete");
 }
 
 void WritableFile::write(const std::string& path, std::span<const double> values,
                          std::size_t columns) {
-  write_array(path, H5T_NATIVE_DOUBLE, values.data(), values.size(), columns);
+  write_array(path, H5T_NATIVE_DOUBLE, values.data(), shape_of(values.size(), columns));
 }
 
 void WritableFile::write(const std::string& path, std::span<const std::int32_t> values,
                          std::size_t columns) {
-  write_array(path, H5T_NATIVE_INT32, values.data(), values.size(), columns);
+  write_array(path, H5T_NATIVE_INT32, values.data(), shape_of(values.size(), columns));
+}
+
+/// One chunk with a checksum; without it a reader finds the fill value.
+PropertiesHandle WritableFile::creation(const std::string& path, hid_t type,
+                                        std::span<const hsize_t> chunk) const {
+  PropertiesHandle properties(check(H5Pcreate(H5P_DATASET_CREATE), path, "H5Pcreate"));
+  const double no_number = std::numeric_limits<double>::quiet_NaN();
+  const std::int32_t no_node = -1;
+  const H5T_class_t kind = H5Tget_class(type);
+  herr_t status = H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  if (status >= 0) status = H5Pset_fletcher32(properties.get());
+  if (status >= 0) status = H5Pset_obj_track_times(properties.get(), false);
+  if (status >= 0 && kind == H5T_FLOAT)
+    status = H5Pset_fill_value(properties.get(), type, &no_number);
+  if (status >= 0 && kind == H5T_INTEGER)
+    status = H5Pset_fill_value(properties.get(), type, &no_node);
+  check_status(status, path, "H5Pset");
+  return properties;
 }
 
 void WritableFile::write_array(const std::string& path, hid_t type, const void* values,
-                               std::size_t count, std::size_t columns) {
+                               std::span<const hsize_t> shape) {
   const SilentErrors silent;
-  const std::array<hsize_t, 2> shape{columns == 0 ? count : count / columns, columns};
-  const SpaceHandle space(
-      check(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), path, "H5Screate"));
-  const DatasetHandle dataset(check(H5Dcreate2(file_.get(), path.c_str(), type, space.get(),
-                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  const SpaceHandle space(check(
+      H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), path, "H5Screate"));
+  const PropertiesHandle properties = creation(path, type, shape);
+  const DatasetHandle dataset(check(H5Dcreate2(file_.id(), path.c_str(), type, space.get(),
+                                               H5P_DEFAULT, properties.get(), H5P_DEFAULT),
                                     path, "H5Dcreate"));
   check_status(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path,
                "H5Dwrite");
 }
 
 void WritableFile::write_text(const std::string& path, const std::string& text) {
-  const SilentErrors silent;
   const TypeHandle type = text_type(text.size());
-  const SpaceHandle space(check(H5Screate(H5S_SCALAR), path, "H5Screate"));
-  const DatasetHandle dataset(check(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(),
-                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                                    path, "H5Dcreate"));
-  check_status(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()),
-               path, "H5Dwrite");
+  const hsize_t one = 1;
+  write_array(path, type.get(), text.c_str(), {&one, 1});
 }
 
 void WritableFile::make_extendable(const std::string& path) {
@@ -114,21 +116,20 @@ void WritableFile::make_extendable(const std::string& path) {
   const hsize_t none = 0;
   const hsize_t unlimited = H5S_UNLIMITED;
   const SpaceHandle space(check(H5Screate_simple(1, &none, &unlimited), path, "H5Screate"));
-  const PropertiesHandle properties(check(H5Pcreate(H5P_DATASET_CREATE), path, "H5Pcreate"));
-  check_status(H5Pset_chunk(properties.get(), 1, &rows_at_once), path, "H5Pset_chunk");
+  const PropertiesHandle properties = creation(path, H5T_NATIVE_DOUBLE, {&rows_at_once, 1});
   const DatasetHandle dataset(
-      check(H5Dcreate2(file_.get(), path.c_str(), H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT,
+      check(H5Dcreate2(file_.id(), path.c_str(), H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT,
                        properties.get(), H5P_DEFAULT),
             path, "H5Dcreate"));
 }
 
 void WritableFile::append(const std::string& path, std::span<const double> values) {
   const SilentErrors silent;
-  const htri_t exists = H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT);
+  const htri_t exists = H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT);
   check_status(exists, path, "H5Lexists");
   if (exists == 0) make_extendable(path);
   const DatasetHandle dataset(
-      check(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), path, "H5Dopen"));
+      check(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), path, "H5Dopen"));
   hsize_t length = 0;
   {
     const SpaceHandle space(check(H5Dget_space(dataset.get()), path, "H5Dget_space"));
@@ -148,9 +149,17 @@ void WritableFile::append(const std::string& path, std::span<const double> value
                path, "H5Dwrite");
 }
 
+void WritableFile::shorten(const std::string& path, std::size_t rows) {
+  const SilentErrors silent;
+  const DatasetHandle dataset(
+      check(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), path, "H5Dopen"));
+  const hsize_t extent = rows;
+  check_status(H5Dset_extent(dataset.get(), &extent), path, "H5Dset_extent");
+}
+
 void WritableFile::link(const std::string& path, const std::string& target) {
   const SilentErrors silent;
-  check_status(H5Lcreate_soft(target.c_str(), file_.get(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+  check_status(H5Lcreate_soft(target.c_str(), file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                path, "H5Lcreate_soft");
 }
 
@@ -175,7 +184,10 @@ void WritableFile::write_attribute(const std::string& object, const std::string&
   const SilentErrors silent;
   const std::string path = fmt::format("{} @{}", object, name);
   const ObjectHandle owner(
-      check(H5Oopen(file_.get(), object.c_str(), H5P_DEFAULT), path, "H5Oopen"));
+      check(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), path, "H5Oopen"));
+  const htri_t exists = H5Aexists(owner.get(), name.c_str());
+  check_status(exists, path, "H5Aexists");
+  if (exists > 0) check_status(H5Adelete(owner.get(), name.c_str()), path, "H5Adelete");
   const SpaceHandle space(check(H5Screate(H5S_SCALAR), path, "H5Screate"));
   const AttributeHandle attribute(
       check(H5Acreate2(owner.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -185,12 +197,12 @@ void WritableFile::write_attribute(const std::string& object, const std::string&
 
 void WritableFile::flush() {
   const SilentErrors silent;
-  check_status(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "/", "H5Fflush");
+  check_status(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "/", "H5Fflush");
 }
 
 void WritableFile::close() {
   const SilentErrors silent;
-  check_status(H5Fclose(file_.detach()), "/", "H5Fclose");
+  check_status(file_.close(), "/", "H5Fclose");
 }
 
 }  // namespace vesica::io::hdf5

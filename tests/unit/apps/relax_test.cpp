@@ -1,9 +1,11 @@
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "flat_json.hpp"
 #include "program_test.hpp"
 #include "programs.hpp"
+#include "vesica/io/run_reader.hpp"
 
 namespace vesica {
 namespace {
@@ -57,6 +59,38 @@ TEST_F(RelaxTest, GoesOnWithARunThatBrokeOff) {
   ASSERT_TRUE(fs::exists(folder_ / "broken" / "trajectory.part.h5"));
   ASSERT_EQ(relax("case.toml --resume broken --out second"), 0) << output_;
   EXPECT_NEAR(verdict("second", "/shape/volume"), 4.6, 1e-7);
+}
+
+TEST_F(RelaxTest, GoesOnInItsFolderUntilItHasConvergedAndThenSaysSo) {
+  ASSERT_EQ(relax("case.toml --set stop.max_steps=10 --set output.every_steps=1 --out run"), 1);
+  int status = 1;
+  for (int i = 0; i < 20 && status == 1; ++i) status = relax("--resume run --out run --overwrite");
+  ASSERT_EQ(status, 0) << output_;
+  const compare::EnergyHistory history = io::read_history(folder_ / "run");
+  for (std::size_t i = 1; i + 1 < history.step.size(); ++i)
+    EXPECT_EQ(history.step[i], history.step[i - 1] + 1);
+  EXPECT_EQ(history.step.back(), verdict("run", "/counts/steps"));
+  const auto written = fs::last_write_time(folder_ / "run" / "trajectory.h5");
+  ASSERT_EQ(relax("--resume run"), 0);
+  EXPECT_NE(output_.find("run: the run has converged at t = "), std::string::npos) << output_;
+  EXPECT_EQ(fs::last_write_time(folder_ / "run" / "trajectory.h5"), written);
+  ASSERT_EQ(relax("case.toml --out whole"), 0) << output_;
+  EXPECT_NEAR(verdict("run", "/energy/total"), verdict("whole", "/energy/total"), 1e-2);
+}
+
+TEST_F(RelaxTest, NamesWhatHasChangedAndRefusesWhatAResumedRunCannotTake) {
+  ASSERT_EQ(relax("case.toml --set stop.max_steps=4 --out run"), 1) << output_;
+  EXPECT_EQ(relax("--resume run --set shape.resolution=3"), 2);
+  EXPECT_NE(output_.find("--set shape.resolution=3: shape.resolution = 3: a resumed run goes on "
+                         "from its last state, which began with 2"),
+            std::string::npos)
+      << output_;
+  EXPECT_EQ(relax("--resume run --set stop.max_steps=1 --set "
+                  "constraints.volume='[4.74,4.73,0,1e-9]'"),
+            1);
+  EXPECT_NE(output_.find("the run goes on with stop.max_steps = 1 instead of 4"), std::string::npos)
+      << output_;
+  EXPECT_NE(output_.find("begins before t = "), std::string::npos) << output_;
 }
 
 TEST_F(RelaxTest, TellsWhereAValueWasWrittenThatDoesNotFitTheOthers) {
@@ -130,6 +164,44 @@ TEST_F(RelaxTest, RefusesASurfaceThatTheMeshMethodOrTheModelCannotTake) {
   EXPECT_EQ(relax("case.toml --set shape.kind=file --set shape.path=two.off --out two"), 2);
   EXPECT_NE(output_.find("the surface has 2 pieces: must be one vesicle"), std::string::npos)
       << output_;
+}
+
+/// The files of a run must not take the places of its output.
+TEST_F(RelaxTest, RunsWithoutStandardInputAndOutput) {
+  EXPECT_EQ(run("/bin/sh",
+                "-c \"'" + std::string(program_relax) + "' case.toml --out run <&- >&- 2>&-\""),
+            0);
+  EXPECT_NO_THROW((void)io::read_run(folder_ / "run"));
+}
+
+TEST_F(RelaxTest, EverySignalThatAsksForTheEndSavesTheRun) {
+  const std::string slow =
+      "case.toml --overwrite --set stop.normal_velocity=1e-300 --set solver.max_step=1e-5 --out "
+      "run";
+  for (const auto& [signal, status] : {std::pair{"HUP", 129}, std::pair{"XCPU", 152}}) {
+    EXPECT_EQ(relax("--help > /dev/null; timeout --foreground --preserve-status --signal=" +
+                    std::string(signal) + " 2 '" + program_relax + "' " + slow),
+              status)
+        << output_;
+    EXPECT_NE(output_.find("SIG" + std::string(signal) + " received"), std::string::npos);
+    EXPECT_NO_THROW((void)io::read_run(folder_ / "run"));
+  }
+}
+
+class SlowRelaxTest : public RelaxTest {};
+
+/// The rates are round-off there: on a mesh this fine above the tolerance of the initial values.
+TEST_F(SlowRelaxTest, GoesOnFromAStateAtRest) {
+  write("rest.toml",
+        "[shape]\nkind = 'ellipsoid'\nresolution = 5\nsemi_axes = [1.4, 1.0, 1.0]\n"
+        "[phase]\nkind = 'caps'\naxis = 'x'\nends = 'high'\nfraction = 0.4\n"
+        "[material]\nline_tension = 2.0\ninterface_width = 0.3\n"
+        "[constraints]\nreduced_volume = 0.95\n[adaption]\nenabled = true\n");
+  ASSERT_EQ(relax("rest.toml --out first"), 0) << output_;
+  ASSERT_EQ(relax("--resume first --out same"), 0) << output_;
+  EXPECT_NEAR(verdict("same", "/energy/total"), verdict("first", "/energy/total"), 1e-4);
+  ASSERT_EQ(relax("--resume first --set material.line_tension=2.001 --out raised"), 0) << output_;
+  EXPECT_GT(verdict("raised", "/energy/line"), verdict("first", "/energy/line"));
 }
 
 }  // namespace

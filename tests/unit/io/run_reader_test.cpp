@@ -10,45 +10,17 @@
 #include <tuple>
 #include <vector>
 
-#include "fake_run.hpp"
 #include "flat_json.hpp"
 #include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/io/run_folder.hpp"
-#include "vesica/io/trajectory_writer.hpp"
 #include "vesica/io/verdict_files.hpp"
+#include "written_run.hpp"
 
 namespace vesica::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Writes a made-up run of a few steps.
-relax::Verdict write_fake_run(const fs::path& folder, relax::RunStatus status, int signal = 0) {
-  config::RunConfig config;
-  config.title = "made up";
-  config.phase.emplace();
-  config.output.directory = folder.string();
-  problem::State state = fake_state();
-  solve::StepReport report = fake_report(0);
-  relax::Outcome outcome = fake_outcome(status);
-  outcome.signal = signal;
-  outcome.diagnostics.domains = {{1, 3, 6.5}, {1, 2, 5}, {2, 7, 11}};
-  outcome.events = {{3, 0.5, "domains of phase 1: 1 -> 2"}};
-  outcome.mesh_changes.resize(2);
-  const measure::Diagnostics measured = fake_diagnostics();
-  TrajectoryWriter writer(folder, config, setup::case_of(config, fake_state()));
-  for (long step = 0; step <= 12; ++step) {
-    report = fake_report(step);
-    state.time = 0.125 * static_cast<double>(step);
-    state.values.positions *= 1.001;
-    writer.observe({state, report, measured});
-  }
-  writer.finish({state, report, measured}, outcome);
-  relax::Verdict verdict = relax::make_verdict(outcome, solve::SolverOptions{}, {}, state);
-  io::write_verdict(config, verdict);
-  return verdict;
-}
 
 std::string io_error_of(const fs::path& folder) {
   try {

@@ -228,6 +228,23 @@ TEST(TrajectoryWriter, ParaViewSeesOneFrameAtATime) {
   EXPECT_NE(text.find("<Grid Name=\"/frames/000001\""), std::string::npos);
 }
 
+/// It grows frame by frame, the other one is written at once.
+TEST(TrajectoryWriter, ParaViewSeesTheSameFramesWhileTheRunGoesOn) {
+  const test::TemporaryFolder folder;
+  FakeRun run;
+  TrajectoryWriter writer(folder.path(), run.config, {});
+  run.observe(writer, 0);
+  run.observe(writer, 5);
+  writer.mesh_changed({run.state, run.report, run.measured},
+                      {5, run.state.time, 18, 18, 0.25, 0.5, "the test asks"});
+  run.observe(writer, 10);
+  std::string growing = text_of(folder.path() / "trajectory.part.xdmf");
+  run.finish(writer);
+  for (std::size_t place = 0; (place = growing.find(".part.h5")) != std::string::npos;)
+    growing.replace(place, 8, ".h5");
+  EXPECT_EQ(growing, text_of(folder.path() / "trajectory.xdmf"));
+}
+
 TEST(TrajectoryWriter, EveryFrameHasItsDomainsInOneTable) {
   const test::TemporaryFolder folder;
   FakeRun run;

@@ -7,8 +7,10 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <new>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "temporary_folder.hpp"
 #include "vesica/core/error.hpp"
@@ -91,7 +93,7 @@ class RunTest : public ::testing::Test {
     config_.phase.emplace().kind = phase::PhaseKind::caps;
     config_.material.interface_width = 0.5;
     setup::Case vesicle = setup::make_case(config_);
-    vesicle.start.values.order_parameter[3] = std::numeric_limits<double>::quiet_NaN();
+    vesicle.start.values.order_parameter[3] = 1e200;
     return vesicle;
   }
 
@@ -151,6 +153,54 @@ TEST_F(RunTest, GoesOnWithAnOlderRun) {
   options.resumed = config_.output.directory;
   const Result second = run(config_, options);
   EXPECT_GT(second.state.time, first.state.time);
+}
+
+/// Throws after the second step.
+class Thrower final : public relax::Observer {
+ public:
+  void observe(const relax::StepView& view) override {
+    if (view.report.counts.steps == 2) throw std::bad_alloc();
+  }
+};
+
+TEST_F(RunTest, AnExceptionLeavesARunWithAVerdictThatGoesOn) {
+  Thrower thrower;
+  Options options;
+  options.observers = {&thrower};
+  EXPECT_THROW((void)run(config_, options), std::bad_alloc);
+  const io::FinishedRun broken = io::read_run(config_.output.directory);
+  EXPECT_EQ(broken.verdict.outcome.status, relax::RunStatus::numerical_failure);
+  EXPECT_EQ(broken.verdict.outcome.reason, "std::bad_alloc");
+  options.observers = {};
+  options.resumed = config_.output.directory;
+  EXPECT_EQ(run(config_, options).verdict.outcome.status, relax::RunStatus::converged);
+}
+
+TEST_F(RunTest, GoesOnInItsFolderWithOneRecordOfTheWholeRun) {
+  config_.stop.max_steps = 3;
+  config_.output.every_steps = 1;
+  const Result first = run(config_);
+  Options options;
+  options.resumed = config_.output.directory;
+  options.overwrites = true;
+  const Result second = run(config_, options);
+  EXPECT_EQ(second.verdict.outcome.report.counts.steps, 6);
+  EXPECT_EQ(second.verdict.run, first.verdict.run);
+  EXPECT_EQ(second.verdict.outcome.initial_quality, first.verdict.outcome.initial_quality);
+  const io::FinishedRun whole = io::read_run(config_.output.directory);
+  EXPECT_EQ(whole.history.step, (std::vector<double>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(whole.verdict.outcome.report.counts.steps, 6);
+  EXPECT_EQ(whole.state.time, second.state.time);
+}
+
+TEST_F(RunTest, ARunIsNotContinuedFromAStateThatAnotherOneHasLeftBehind) {
+  config_.stop.max_steps = 2;
+  (void)run(config_);
+  Options options;
+  options.resumed = config_.output.directory;
+  const setup::Case vesicle = prepare(config_, options);
+  (void)run(config_, vesicle, options);
+  EXPECT_THROW((void)run(config_, vesicle, options), ConfigError);
 }
 
 TEST_F(RunTest, EndsWhenAControllerOfTheCallerWantsIt) {

@@ -1,4 +1,4 @@
-#include "io/time_series.hpp"
+#include "io/record/time_series.hpp"
 
 #include <array>
 

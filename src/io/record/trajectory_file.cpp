@@ -1,28 +1,16 @@
-#include "io/trajectory_file.hpp"
+#include "io/record/trajectory_file.hpp"
 
 #include <fmt/format.h>
 #include <map>
 #include <utility>
 
-#include "config/option_values.hpp"
-#include "vesica/core/version.hpp"
-#include "vesica/flow/library_versions.hpp"
-#include "vesica/linalg/library_versions.hpp"
+#include "io/record/attributes.hpp"
+#include "io/record/run_description.hpp"
 #include "vesica/measure/diagnostics.hpp"
 #include "vesica/relax/verdict.hpp"
 
 namespace vesica::io {
 namespace {
-
-#if defined(__clang__)
-constexpr std::string_view compiler = "Clang " __clang_version__;
-#else
-constexpr std::string_view compiler = "GCC " __VERSION__;
-#endif
-
-std::string numbered(std::string_view group, std::size_t index) {
-  return fmt::format("/{}/{:06}", group, index);
-}
 
 std::span<const double> values_of(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -32,91 +20,50 @@ std::span<const double> values_of(const mesh::Positions& positions) {
   return {positions.data(), static_cast<std::size_t>(positions.size())};
 }
 
-/// One attribute for every option or result: numbers and flags as such, everything else as in a
-/// case file.
-class AttributeWriter {
- public:
-  AttributeWriter(hdf5::WritableFile& file, std::string group, std::string prefix = "")
-      : file_(file), group_(std::move(group)), prefix_(std::move(prefix)) {}
-
-  template <class T>
-  void operator()(const Field& field, const T& value) {
-    const std::string name = fmt::format("{}{}", prefix_, field.name);
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::string>) {
-      file_.set_attribute(group_, name, value);
-    } else if constexpr (std::is_integral_v<T>) {
-      file_.set_attribute(group_, name, static_cast<std::int64_t>(value));
-    } else if constexpr (std::is_enum_v<T>) {
-      file_.set_attribute(group_, name, std::string(name_of(value)));
-    } else {
-      file_.set_attribute(group_, name, config::toml_text(value));
-    }
-  }
-  template <class T>
-  void operator()(const Field& field, const std::optional<T>& value) {
-    if (value) (*this)(field, *value);
-  }
-
- private:
-  hdf5::WritableFile& file_;
-  std::string group_;
-  std::string prefix_;
-};
-
 }  // namespace
 
-TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const config::RunConfig& config,
-                               const setup::Case& vesicle)
+TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const std::string& run,
+                               const config::RunConfig& config, const setup::Case& vesicle)
     : file_(path), model_(vesicle.model) {
   for (const char* group : {"/meshes", "/frames", "/series", "/domains", "/events"})
     file_.make_group(group);
-  write_configuration(config);
-  write_origin(vesicle.origin);
-  write_versions();
+  file_.set_attribute("/", "run", run);
+  write_configuration(file_, config);
+  write_origin(file_, vesicle.origin);
+  write_versions(file_);
+  add_provenance(file_, vesicle);
 }
 
-void TrajectoryFile::write_configuration(const config::RunConfig& config) {
-  const std::string root = "/configuration";
-  file_.make_group(root);
-  file_.set_attribute(root, "title", config.title);
-  file_.write_text(root + "/toml", config::to_toml(config));
-  config::RunConfig::tables(
-      config, [this, &root]<class Options>(const config::Table& table, const Options& options) {
-        const std::string group = fmt::format("{}/{}", root, table.name);
-        if constexpr (requires { options.has_value(); }) {
-          if (!options) return;
-          file_.make_group(group);
-          Options::value_type::fields(*options, AttributeWriter(file_, group));
-        } else {
-          file_.make_group(group);
-          Options::fields(options, AttributeWriter(file_, group));
-        }
-      });
+TrajectoryFile::TrajectoryFile(const std::filesystem::path& path, const RecordEnd& end,
+                               const config::RunConfig& config, const setup::Case& vesicle)
+    : file_(path, hdf5::Access::change),
+      model_(vesicle.model),
+      num_written_events_(end.outcome.events.size()),
+      frames_(end.frames),
+      num_meshes_(end.num_meshes),
+      last_triangulation_(vesicle.start.triangulation) {
+  cut_behind(end);
+  write_configuration(file_, config);
+  write_versions(file_);
+  add_provenance(file_, vesicle);
 }
 
-void TrajectoryFile::write_origin(const setup::Origin& origin) {
-  const std::string group = "/origin";
-  file_.make_group(group);
-  model::Measures::fields(origin.measures, AttributeWriter(file_, group));
-  file_.set_attribute(group, "is_sphere", static_cast<std::int64_t>(origin.is_sphere));
-}
-
-void TrajectoryFile::write_versions() {
-  const std::string group = "/versions";
-  file_.make_group(group);
-  file_.set_attribute(group, "vesica", std::string(version()));
-  file_.set_attribute(group, "sundials", flow::sundials_version());
-  file_.set_attribute(group, "suitesparse", linalg::suitesparse_versions());
-  file_.set_attribute(group, "hdf5",
-                      fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE));
-  file_.set_attribute(
-      group, "eigen",
-      fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
-  file_.set_attribute(group, "compiler", std::string(compiler));
+/// Removes what the run that goes on will write anew, and the end of the run.
+void TrajectoryFile::cut_behind(const RecordEnd& end) {
+  if (file_.has("/outcome")) file_.remove("/outcome");
+  for (const auto& [group, first] :
+       {std::pair{"frames", end.frames.size()}, std::pair{"meshes", end.num_meshes},
+        std::pair{"events", end.outcome.events.size()}}) {
+    for (std::size_t index = first; file_.has(numbered(group, index)); ++index)
+      file_.remove(numbered(group, index));
+  }
+  for (const std::string& column : end.columns) file_.shorten("/series/" + column, end.num_rows);
+  for (const std::string& column : end.domain_columns)
+    file_.shorten("/domains/" + column, end.num_domain_rows);
 }
 
 void TrajectoryFile::write_mesh(std::shared_ptr<const mesh::Triangulation> triangulation) {
-  const std::string mesh = numbered("meshes", meshes_.size());
+  const std::string mesh = numbered("meshes", num_meshes_);
   const std::span<const mesh::QuadraticTriangle> triangles = triangulation->triangles();
   file_.make_group(mesh);
   file_.write(mesh + "/triangles", std::span(triangles.front().data(), 6 * triangles.size()), 6);
@@ -124,7 +71,7 @@ void TrajectoryFile::write_mesh(std::shared_ptr<const mesh::Triangulation> trian
     relax::MeshChange::fields(*next_change_, AttributeWriter(file_, mesh));
     next_change_.reset();
   }
-  meshes_.push_back(mesh);
+  ++num_meshes_;
   last_triangulation_ = std::move(triangulation);
 }
 
@@ -134,26 +81,31 @@ void TrajectoryFile::add_frame(const relax::StepView& view) {
   const problem::State& state = view.state;
   if (state.triangulation != last_triangulation_) write_mesh(state.triangulation);
   const std::string group = numbered("frames", frames_.size());
+  const std::string mesh = numbered("meshes", num_meshes_ - 1);
   const measure::NodalFields fields = measure::nodal_fields(model_, state);
   file_.make_group(group);
   file_.set_attribute(group, "time", state.time);
   file_.set_attribute(group, "step", static_cast<std::int64_t>(view.report.counts.steps));
-  file_.set_attribute(group, "mesh", meshes_.back());
+  file_.set_attribute(group, "mesh", mesh);
+  file_.set_attribute(group, "step_size", view.report.step_size);
   file_.set_attribute(group, "damping", state.damping);
   model::PerConstraint::fields(state.values.multipliers,
                                AttributeWriter(file_, group, "multiplier_"));
-  file_.link(group + "/mesh", meshes_.back());
+  file_.link(group + "/mesh", mesh);
   file_.write(group + "/positions", values_of(state.values.positions), 3);
   file_.write(group + "/velocity", values_of(state.rates.positions), 3);
   file_.write(group + "/normals", values_of(fields.normals), 3);
   file_.write(group + "/mean_curvature", values_of(state.values.mean_curvature));
-  if (state.is_two_phase())
+  if (state.is_two_phase()) {
     file_.write(group + "/order_parameter", values_of(state.values.order_parameter));
+    file_.write(group + "/order_parameter_rate", values_of(state.rates.order_parameter));
+  }
   file_.write(group + "/normal_velocity", values_of(fields.normal_velocity));
   file_.write(group + "/bending_energy_density", values_of(fields.bending_energy_density));
   write_domains(view.diagnostics);
-  frames_.push_back({state.time, group, meshes_.back(), state.triangulation->num_nodes(),
-                     state.triangulation->num_triangles(), state.is_two_phase()});
+  frames_.push_back({state.time, group, mesh, state.triangulation->num_nodes(),
+                     state.triangulation->num_triangles(), state.is_two_phase(),
+                     view.report.counts.steps});
 }
 
 /// Rows of the domains' table for the frame that is being added.
@@ -174,9 +126,11 @@ void TrajectoryFile::write_domains(const measure::Diagnostics& diagnostics) {
   for (const auto& [name, values] : columns) file_.append("/domains/" + name, values);
 }
 
-void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome) {
+void TrajectoryFile::add_outcome(const relax::StepView& view, const relax::Outcome& outcome,
+                                 const std::string& verdict) {
   const std::string group = "/outcome";
   file_.make_group(group);
+  file_.write_text(group + "/verdict", verdict);
   file_.set_attribute(group, "status", std::string(name_of(outcome.status)));
   file_.set_attribute(group, "reason", outcome.reason);
   file_.set_attribute(group, "exit_status", static_cast<std::int64_t>(exit_status(outcome)));

@@ -1,4 +1,4 @@
-#include "io/xdmf.hpp"
+#include "io/record/xdmf.hpp"
 
 #include <fmt/format.h>
 #include <array>
@@ -33,7 +33,19 @@ std::string attribute_text(std::string_view hdf5_name, const XdmfFrame& frame,
       shown, frame.num_nodes, hdf5_name, frame.group, stored);
 }
 
-std::string frame_text(std::string_view hdf5_name, const XdmfFrame& frame) {
+}  // namespace
+
+std::string xdmf_head(std::string_view run) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<!-- run {} -->\n"
+      "<Xdmf Version=\"3.0\">\n"
+      "  <Domain>\n"
+      "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+      run);
+}
+
+std::string xdmf_frame(std::string_view hdf5_name, const XdmfFrame& frame) {
   std::string text = fmt::format(
       "      <Grid Name=\"{0}\" GridType=\"Uniform\">\n"
       "        <Time Value=\"{1}\"/>\n"
@@ -56,22 +68,15 @@ std::string frame_text(std::string_view hdf5_name, const XdmfFrame& frame) {
   return text + "      </Grid>\n";
 }
 
-}  // namespace
-
-std::string xdmf_text(std::string_view hdf5_name, std::span<const XdmfFrame> frames) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<Xdmf Version=\"3.0\">\n"
-      "  <Domain>\n"
-      "    <Grid Name=\"vesicle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+std::string xdmf_text(std::string_view hdf5_name, std::string_view run,
+                      std::span<const XdmfFrame> frames) {
+  std::string text = xdmf_head(run);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool is_replaced = i + 1 < frames.size() && frames[i + 1].time == frames[i].time;
-    if (!is_replaced) text += frame_text(hdf5_name, frames[i]);
+    if (!is_replaced) text += xdmf_frame(hdf5_name, frames[i]);
   }
-  return text +
-         "    </Grid>\n"
-         "  </Domain>\n"
-         "</Xdmf>\n";
+  text += xdmf_foot;
+  return text;
 }
 
 }  // namespace vesica::io
