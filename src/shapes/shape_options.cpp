@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cell_shapes.hpp"
 #include "core/refuse.hpp"
 #include "torus_mesh.hpp"
 #include "vesica/shapes/shapes.hpp"
@@ -34,6 +35,15 @@ void check_torus(const ShapeOptions& options) {
     refuse("shape.resolution", options.resolution, "must be >= 3 (elements around the tube)");
 }
 
+void check_reduced_volume(const ShapeOptions& options) {
+  const bool is_disc = options.kind == ShapeKind::discocyte;
+  const double least = is_disc ? least_discocyte : least_stomatocyte;
+  const double most = is_disc ? 1 : most_stomatocyte;
+  if (options.reduced_volume >= least && options.reduced_volume <= most) return;
+  refuse("shape.reduced_volume", options.reduced_volume,
+         fmt::format("must be between {} and {} for a {}", least, most, name_of(options.kind)));
+}
+
 double expected_nodes(const ShapeOptions& options) {
   const double m = options.resolution;
   switch (options.kind) {
@@ -44,6 +54,8 @@ double expected_nodes(const ShapeOptions& options) {
       return 4 * m * torus_rows(options.major_radius, options.minor_radius, options.resolution);
     case ShapeKind::sphere:
     case ShapeKind::ellipsoid:
+    case ShapeKind::discocyte:
+    case ShapeKind::stomatocyte:
     case ShapeKind::tips:
       return options.base == SphereBase::cube ? 24 * std::exp2(m) + 2 : 40 * m * m + 2;
     case ShapeKind::file:
@@ -59,6 +71,7 @@ void ShapeOptions::check_together() const {
   if (kind == ShapeKind::capsule || kind == ShapeKind::peanut) check_capsule(*this);
   if (kind == ShapeKind::peanut) check_peanut(*this);
   if (kind == ShapeKind::torus) check_torus(*this);
+  if (kind == ShapeKind::discocyte || kind == ShapeKind::stomatocyte) check_reduced_volume(*this);
   if (const double nodes = expected_nodes(*this); nodes > most_nodes) {
     refuse("shape.resolution", resolution,
            fmt::format("makes {:.3g} nodes: must be at most {:.3g}", nodes, most_nodes));

@@ -1,5 +1,6 @@
 #include "vesica/shapes/shapes.hpp"
 
+#include "cell_shapes.hpp"
 #include "profiles.hpp"
 #include "revolution_mesh.hpp"
 #include "sphere_mesh.hpp"
@@ -77,6 +78,10 @@ mesh::Surface make_shape(const ShapeOptions& options) {
       return torus_surface(options.major_radius, options.minor_radius, options.resolution);
     case ShapeKind::peanut:
       return revolution_shape(options, peanut_profile(options));
+    case ShapeKind::discocyte:
+      return discocyte(unit_sphere(options), options.reduced_volume, options.radius);
+    case ShapeKind::stomatocyte:
+      return stomatocyte(unit_sphere(options), options.reduced_volume, options.radius);
     case ShapeKind::tips:
       return tips_shape(options);
     case ShapeKind::file:

@@ -66,7 +66,7 @@ class Users {
   }
 
  private:
-  std::array<std::string_view, 6> names_{};
+  std::array<std::string_view, 8> names_{};
   std::size_t size_ = 0;
 };
 

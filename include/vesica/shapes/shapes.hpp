@@ -14,7 +14,17 @@
 namespace vesica::shapes {
 
 /// Kind of a starting shape; make_shape describes each.
-enum class ShapeKind { capsule, sphere, ellipsoid, torus, peanut, tips, file };
+enum class ShapeKind {
+  capsule,
+  sphere,
+  ellipsoid,
+  torus,
+  peanut,
+  discocyte,
+  stomatocyte,
+  tips,
+  file
+};
 
 /// Polyhedron that the sphere's triangulation is made from.
 enum class SphereBase { cube, icosahedron };
@@ -26,12 +36,14 @@ namespace vesica {
 template <>
 struct EnumNames<shapes::ShapeKind> {
   using enum shapes::ShapeKind;
-  static constexpr std::array<std::pair<shapes::ShapeKind, std::string_view>, 7> names = {
+  static constexpr std::array<std::pair<shapes::ShapeKind, std::string_view>, 9> names = {
       {{capsule, "capsule"},
        {sphere, "sphere"},
        {ellipsoid, "ellipsoid"},
        {torus, "torus"},
        {peanut, "peanut"},
+       {discocyte, "discocyte"},
+       {stomatocyte, "stomatocyte"},
        {tips, "tips"},
        {file, "file"}}};
 };
@@ -56,6 +68,7 @@ struct ShapeOptions {
   double waist = 0.5;
   SphereBase base = SphereBase::icosahedron;
   double radius = 1.0;
+  double reduced_volume = 0.6;
   Eigen::Vector3d semi_axes{2.0, 1.0, 1.0};
   double major_radius = 1.0;
   double minor_radius = 0.15;
@@ -70,13 +83,16 @@ struct ShapeOptions {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor&& visit) {
     using enum ShapeKind;
-    visit(Field{"kind", "-", "capsule, sphere, ellipsoid, torus, peanut, tips, file"}, self.kind);
+    visit(Field{"kind", "-",
+                "capsule, sphere, ellipsoid, torus, peanut, discocyte, stomatocyte, tips, file"},
+          self.kind);
     visit(
         Field{"resolution", "-",
               "squares along an edge of a glued cube face of a capsule or peanut (capsule of "
               "length 4: N = 72 m^2 + 2), elements around the tube of a torus, otherwise pieces "
               "of an icosahedron edge (N = 40 m^2 + 2) or bisections of the cube (N = 24 2^m + 2)",
-              Rule::at_least_one, Users(capsule, peanut, torus, sphere, ellipsoid, tips)},
+              Rule::at_least_one,
+              Users(capsule, peanut, torus, sphere, ellipsoid, discocyte, stomatocyte, tips)},
         self.resolution);
     visit(Field{"length", "length", "total length along x", Rule::positive, Users(capsule, peanut)},
           self.length);
@@ -86,9 +102,12 @@ struct ShapeOptions {
                 Users(peanut)},
           self.waist);
     visit(Field{"base", "-", "made from a cube or icosahedron", Rule::any,
-                Users(sphere, ellipsoid, tips)},
+                Users(sphere, ellipsoid, discocyte, stomatocyte, tips)},
           self.base);
-    visit(Field{"radius", "length", "radius", Rule::positive, Users(sphere, tips)}, self.radius);
+    visit(Field{"radius", "length",
+                "radius; of a discocyte or stomatocyte that of the sphere with the same area",
+                Rule::positive, Users(sphere, discocyte, stomatocyte, tips)},
+          self.radius);
     visit(Field{"semi_axes", "length", "semi-axes along x, y, z", Rule::positive, Users(ellipsoid)},
           self.semi_axes);
     other_fields(self, visit);
@@ -101,6 +120,11 @@ struct ShapeOptions {
   template <class Self, class Visitor>
   static void other_fields(Self& self, Visitor&& visit) {
     using enum ShapeKind;
+    visit(Field{"reduced_volume", "-",
+                "volume over that of the sphere with the same area: 0.58 to 1 of a discocyte, 0.2 "
+                "to 0.72 of a stomatocyte",
+                Rule::fraction, Users(discocyte, stomatocyte)},
+          self.reduced_volume);
     visit(Field{"major_radius", "length", "from the centre to the middle of the tube",
                 Rule::positive, Users(torus)},
           self.major_radius);
@@ -157,6 +181,10 @@ struct Shape {
 ///   peanut     x = length / 2 (1 - s), rho = sqrt(1 - s^2) (waist / 2 + b s^2), s in [-1, 1], with
 ///              b such that the largest 2 rho is the diameter; placed and triangulated like the
 ///              capsule
+///   discocyte  rho = sin t, z = cos t (c_0 + c_1 sin^2 t + c_2 sin^4 t), scaled, around z: between
+///              the sphere and the red cell of Evans and Fung (1972), and a little beyond
+///   stomatocyte   a spherical shell of even thickness around z, open at an angle of 135 degrees
+///              from its bottom, with a round rim; thin ones need resolution >= 8
 ///   tips       |x| = radius + tip_height sum_k exp((cos angle(x, t_k) - 1) / tip_width^2) with the
 ///              n directions t_k of Section 4.4
 ///   file       see read_shape

@@ -221,7 +221,7 @@ TEST(Shapes, HaveOneDocumentedFieldForEachOption) {
     EXPECT_FALSE(field.meaning.empty());
     ++num_fields;
   });
-  EXPECT_EQ(num_fields, 17);
+  EXPECT_EQ(num_fields, 18);
   EXPECT_EQ(name_of(ShapeKind::tips), "tips");
   EXPECT_EQ(name_of(SphereBase::cube), "cube");
 }
