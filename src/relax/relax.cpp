@@ -55,6 +55,8 @@ class Run {
   Outcome execute() {
     measure();
     outcome_.initial_quality = outcome_.smallest_quality = diagnostics_.quality;
+    for (const std::string& note : stepper_.current->notes())
+      record({report_.counts.steps, state().time, note});
     std::optional<Stop> end = look_and_respond();
     while (!end) {
       report_ = stepped([&] { return stepper_.current->step(stop_.end_time); });

@@ -1,6 +1,5 @@
 #include "vesica/run/run.hpp"
 
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -59,30 +58,11 @@ relax::Outcome outcome_of_failed_start(const setup::Case& vesicle, std::string r
 
 using Observers = std::vector<relax::Observer*>;
 
-/// Tells the observers what was done to the start, and returns it as events.
-std::vector<relax::Event> announced(const std::vector<std::string>& notes,
-                                    const setup::Case& vesicle, const problem::State& state,
-                                    const Observers& observers) {
-  std::vector<relax::Event> events;
-  if (notes.empty()) return events;
-  const measure::Diagnostics diagnostics = measure::measure(vesicle.model, state);
-  for (const std::string& note : notes) {
-    events.push_back({0, state.time, note});
-    for (auto* observer : observers) observer->happened({state, {}, diagnostics}, events.back());
-  }
-  return events;
-}
-
-/// The stepper of a run, and what was done to its start.
-struct Beginning {
-  std::unique_ptr<solve::Stepper>& stepper;
-  const std::vector<std::string>& notes;
-};
-
 /// Runs the loop with `observers`, of which the first writes files if there are any, and the
 /// controllers of run.hpp.
 relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
-                       const Options& options, Observers observers, const Beginning& beginning) {
+                       const Options& options, Observers observers,
+                       std::unique_ptr<solve::Stepper>& stepper) {
   std::optional<io::Progress> progress;
   if (options.progress != nullptr) {  // behind the files: what it tells of is on the disk
     const auto behind_files = observers.begin() + (options.writes_files ? 1 : 0);
@@ -102,12 +82,7 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   const auto restart = [&](problem::State start, const solve::Restart& how) {
     return restart_stepper(config.solver, vesicle.model, std::move(start), how);
   };
-  auto events = announced(beginning.notes, vesicle, beginning.stepper->state(), observers);
-  auto outcome =
-      relax::relax(beginning.stepper, restart, vesicle.model, config.stop, observers, controllers);
-  outcome.events.insert(outcome.events.begin(), std::make_move_iterator(events.begin()),
-                        std::make_move_iterator(events.end()));
-  return outcome;
+  return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
 /// A run that is resumed goes on as on a new mesh: with its rates and, the history of the integrator
@@ -130,6 +105,7 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   try {
     if (!vesicle.resumed) start = near_targets(vesicle, config.solver, options.interrupt);
     stepper = first_stepper(config, vesicle, start);
+    stepper->set_notes(std::move(start.notes));
   } catch (const SolverError& error) {
     failure = error.what();
   }
@@ -143,7 +119,7 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   }
   relax::Outcome outcome;
   if (stepper) {
-    outcome = compute(config, vesicle, options, std::move(observers), {stepper, start.notes});
+    outcome = compute(config, vesicle, options, std::move(observers), stepper);
   } else {
     outcome = outcome_of_failed_start(vesicle, std::move(failure));
     for (auto* observer : observers)

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "vesica/core/fields.hpp"
 #include "vesica/model/per_term.hpp"
@@ -130,6 +132,13 @@ class Stepper {
   virtual StepReport finish() = 0;
   /// Sets the tangential damping alpha of equation (b) from the next step on [length^2/energy].
   virtual void set_damping(double alpha) = 0;
+
+  /// Returns what was done to the start, a sentence each; a run records it as events at its start.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  void set_notes(std::vector<std::string> notes) { notes_ = std::move(notes); }
+
+ private:
+  std::vector<std::string> notes_;
 };
 
 /// How a run goes on from a state that was already in motion, for example on a new mesh.
