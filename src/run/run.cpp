@@ -57,7 +57,8 @@ relax::Outcome outcome_of_failed_start(const setup::Case& vesicle, std::string r
 
 using Observers = std::vector<relax::Observer*>;
 
-/// Runs the loop with `observers`, of which the first writes files if there are any, and the controllers of run.hpp.
+/// Runs the loop with `observers`, of which the first writes the files if there are any, and the
+/// controllers of run.hpp.
 relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesicle,
                        const Options& options, Observers observers,
                        std::unique_ptr<solve::Stepper>& stepper) {
@@ -83,8 +84,9 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
-/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the integrator
-/// being lost, with a part of its last step. Where the rates no longer hold they are found anew.
+/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the
+/// integrator being lost, with a part of its last step. Where the rates no longer hold they are
+/// found anew.
 std::unique_ptr<solve::Stepper> first_stepper(const config::RunConfig& config,
                                               const setup::Case& vesicle) {
   constexpr double part_of_last_step = 0.3;
