@@ -10,6 +10,7 @@
 
 #include "vesica/core/error.hpp"
 #include "vesica/core/version.hpp"
+#include "vesica/io/run_reader.hpp"
 
 namespace vesica {
 namespace {
@@ -90,6 +91,7 @@ int run_program(std::string_view program, const std::function<int()>& run) {
     return status;
   };
   open_standard_descriptors();
+  io::leave_hdf5_without_cleanup();
   mask_signals(SIG_UNBLOCK);
   try {
     return run();

@@ -26,8 +26,8 @@ void add_run_options(CLI::App& app, RunOptions& options);
 /// What the command line says of a run of `case_file`; progress goes to the standard output.
 [[nodiscard]] run::Options library_options(const RunOptions& options, const std::string& case_file);
 
-/// Catches SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE and SIGXFSZ, unless they are ignored: the first
-/// one is stored in the result, a second SIGINT or SIGTERM ends the program at once.
+/// Catches SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE and SIGXFSZ, unless they are ignored: the
+/// first one is stored in the result, a second SIGINT or SIGTERM ends the program at once.
 const std::atomic<int>& catch_signals();
 
 /// The body of main(): the exit status that `run` returns. An exception is printed to the standard

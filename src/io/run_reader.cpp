@@ -1,6 +1,7 @@
 #include "vesica/io/run_reader.hpp"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -147,6 +148,11 @@ bool keep_the_equations(const std::vector<ConfigChange>& changes) {
   });
 }
 
+bool has_converged(const RecordReader& record, const fs::path& path) {
+  const std::optional<std::string> text = record.verdict();
+  return text && read_verdict(path, *text).outcome.status == relax::RunStatus::converged;
+}
+
 config::RunConfig config_of(const RecordReader& record, const fs::path& path,
                             std::span<const std::string> overrides) {
   return config::read_config_text(record.configuration(), path.string() + ":/configuration/toml",
@@ -173,6 +179,8 @@ std::vector<std::string> warnings_of_past(const setup::Case& vesicle,
 }
 
 }  // namespace
+
+void leave_hdf5_without_cleanup() { (void)H5dont_atexit(); }
 
 compare::EnergyHistory read_history(const fs::path& folder) {
   return RecordReader(folder / file_names::record).history();
@@ -232,7 +240,8 @@ setup::Case resumed_case(const config::RunConfig& config, const fs::path& folder
   for (const std::string& damage : {source.warning, frame.warning})
     if (!damage.empty()) warnings.push_back(damage);
   vesicle.warnings.insert(vesicle.warnings.end(), warnings.begin(), warnings.end());
-  const double step_size = keep_the_equations(changes) ? frame.step_size : 0;
+  const bool is_in_motion = keep_the_equations(changes) && !has_converged(record, source.path);
+  const double step_size = is_in_motion ? frame.step_size : 0;
   vesicle.resumed = setup::Resumption{folder,      record.run(), record.num_frames(),
                                       frame.index, step_size,    source.is_checkpoint};
   return vesicle;

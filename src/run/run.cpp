@@ -85,8 +85,9 @@ relax::Outcome compute(const config::RunConfig& config, const setup::Case& vesic
   return relax::relax(stepper, restart, vesicle.model, config.stop, observers, controllers);
 }
 
-/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the integrator
-/// being lost, with a part of its last step. Where the rates no longer hold they are found anew.
+/// A run that is resumed goes on as on a new mesh: with its rates and, the history of the
+/// integrator being lost, with a part of its last step. Where the rates no longer hold they are
+/// found anew.
 std::unique_ptr<solve::Stepper> first_stepper(const config::RunConfig& config,
                                               const setup::Case& vesicle, FitStart& start) {
   constexpr double part_of_last_step = 0.3;

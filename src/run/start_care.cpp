@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double far_from_targets = 0.02;  // relative
 constexpr double largest_part = 0.1;       // of a way to the targets
+constexpr double most_parts = 30;
 constexpr int steps_of_a_part = 4;
 constexpr double good_quality = 0.4;
 constexpr double good_area_ratio = 8;
@@ -85,13 +87,14 @@ class Way {
   int go(problem::State& state, bool is_sphere) {
     const model::Measures first = measure::measure(model_, state).measures;
     const double error = minimise::largest_target_error(model_, state);
-    const int parts = std::max(1, static_cast<int>(std::ceil(error / largest_part)));
+    const int parts =
+        static_cast<int>(std::clamp(std::ceil(error / largest_part), 1.0, most_parts));
     int stages = 0;
     for (int part = 1; part <= parts && !is_interrupted(); ++part) {
       const model::Model there = between(first, static_cast<double>(part) / parts);
       minimise::ApproachOptions how{options_.threads, is_sphere && part == 1, {}};
       how.may_go_on = [this] { return !is_interrupted(); };
-      auto approach = minimise::approach_targets(there, std::move(state), how);
+      auto approach = approach_targets(there, std::move(state), how);
       stages += approach.stages;
       if (!approach.is_done && !is_interrupted()) throw SolverError(failure(error, approach));
       state = std::move(approach.state);
@@ -105,6 +108,16 @@ class Way {
 
  private:
   [[nodiscard]] bool is_interrupted() const { return interrupt_ != nullptr && *interrupt_ != 0; }
+
+  [[nodiscard]] static minimise::Approach approach_targets(const model::Model& model,
+                                                           problem::State state,
+                                                           const minimise::ApproachOptions& how) {
+    try {
+      return minimise::approach_targets(model, std::move(state), how);
+    } catch (const RecoverableError& trouble) {
+      throw SolverError(trouble.what());
+    }
+  }
 
   /// The model with targets between what the start has and those of the case.
   [[nodiscard]] model::Model between(const model::Measures& first, double fraction) const {
@@ -144,6 +157,15 @@ class Way {
   const std::atomic<int>* interrupt_;
 };
 
+/// Not a number for a surface that is degenerate: then the stepper tells what is wrong.
+double target_error(const model::Model& model, const problem::State& start) {
+  try {
+    return minimise::largest_target_error(model, start);
+  } catch (const RecoverableError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
 FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& options,
@@ -151,11 +173,17 @@ FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& op
   FitStart result{vesicle.start};
   if (!options.mend_start) return result;
   const model::Model model = vesicle.model.frozen(vesicle.start.time);
-  const double error = minimise::largest_target_error(model, vesicle.start);
+  const double error = target_error(model, vesicle.start);
   if (!(error > far_from_targets)) return result;
   const double scale = minimise::scale_to_targets(model, result.state);
-  Way way(model, options, interrupt);
-  const int stages = way.go_from_rough(result, vesicle.origin.is_sphere);
+  int stages = 0;
+  try {
+    stages = Way(model, options, interrupt).go_from_rough(result, vesicle.origin.is_sphere);
+  } catch (const SolverError& trouble) {
+    return {vesicle.start,
+            {fmt::format("the run begins off its targets by {:.2g} (relative), since {}", error,
+                         trouble.what())}};
+  }
   const std::string scaling =
       std::abs(scale - 1) < 1e-4
           ? ""

@@ -17,8 +17,8 @@ struct FitStart {
 };
 
 /// Takes the start of a case to its targets where it is off by more than 0.02 of them, by
-/// minimise::approach_targets. `interrupt` as in Options. Throws SolverError when the targets are
-/// not reached.
+/// minimise::approach_targets. `interrupt` as in Options. Where the targets are not reached the
+/// start stays as it is, with a note.
 [[nodiscard]] FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& options,
                                     const std::atomic<int>* interrupt);
 

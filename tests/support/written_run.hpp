@@ -11,6 +11,7 @@ namespace vesica::io {
 inline relax::Verdict write_fake_run(const std::filesystem::path& folder, relax::RunStatus status,
                                      int signal = 0) {
   config::RunConfig config;
+  config.solver.method = solve::Method::ida;
   config.title = "made up";
   config.phase.emplace();
   config.output.directory = folder.string();

@@ -60,6 +60,11 @@ struct Frame {
 [[nodiscard]] std::optional<relax::Verdict> find_conclusion(const config::RunConfig& config,
                                                             const std::filesystem::path& folder);
 
+/// Lets the program end without the clean-up of HDF5, which complains of parts of a damaged file
+/// that it has kept open itself. For programs that leave HDF5 to this library; to be called before
+/// anything is read or written.
+void leave_hdf5_without_cleanup();
+
 /// Reads the energy history of a run that has ended. Throws IoError.
 [[nodiscard]] compare::EnergyHistory read_history(const std::filesystem::path& folder);
 

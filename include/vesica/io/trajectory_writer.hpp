@@ -22,8 +22,8 @@ class TrajectoryWriter final : public relax::Observer {
  public:
   /// Begins a record in `folder`, which exists, and holds its FolderLock; where `vesicle` was
   /// resumed from this folder, its record goes on, with steps, counts and seconds. Throws IoError,
-  /// and ConfigError when a run is writing there or has done so since the case was made, or when the
-  /// folder holds a run and `replaces` is false.
+  /// and ConfigError when a run is writing there or has done so since the case was made, or when
+  /// the folder holds a run and `replaces` is false.
   TrajectoryWriter(std::filesystem::path folder, const config::RunConfig& config,
                    const setup::Case& vesicle, bool replaces = true);
   ~TrajectoryWriter() override;

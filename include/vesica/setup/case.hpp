@@ -26,8 +26,8 @@ struct Resumption {
   std::string run;             ///< the number that the files of that run share
   std::size_t num_frames = 0;  ///< of its record
   std::size_t frame = 0;       ///< the one that is the start, as a rule the last
-  /// Size of its last step where the rates of the start still hold, since no option of the equations
-  /// has changed; else 0 [time].
+  /// Size of its last step where the run was in motion and its rates still hold, since no option
+  /// of the equations has changed; else 0 [time].
   double step_size = 0;
   bool is_checkpoint = false;  ///< the record is damaged, and the start that of a checkpoint
 };

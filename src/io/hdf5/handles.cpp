@@ -47,8 +47,6 @@ std::filesystem::path journal_of(std::filesystem::path file) {
 }
 
 DrivenFile::DrivenFile(const std::filesystem::path& path, Access access) {
-  // HDF5 keeps parts of a damaged file open and complains of them at the exit of the program.
-  (void)H5dont_atexit();
   const SilentErrors silent;
   const auto fail = [&](std::string_view call) {
     const std::string cause =

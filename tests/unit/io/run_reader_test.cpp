@@ -66,6 +66,21 @@ TEST(RunReader, AResumedCaseKeepsTheOriginOfTheRun) {
   EXPECT_EQ(resumed.start.time, 1.5);
 }
 
+/// The last step of a run at rest is as long as it could be, and the final solve has other rates.
+TEST(RunReader, OnlyARunInMotionGoesOnWithItsLastStep) {
+  for (const auto status : {relax::RunStatus::step_limit, relax::RunStatus::converged}) {
+    const test::TemporaryFolder folder;
+    write_fake_run(folder.path(), status);
+    config::RunConfig config = recorded_config(folder.path(), {});
+    const bool moves = status == relax::RunStatus::step_limit;
+    EXPECT_EQ(resumed_case(config, folder.path()).resumed->step_size, moves ? 0.0125 : 0);
+    config.stop.max_steps = 5;
+    EXPECT_EQ(resumed_case(config, folder.path()).resumed->step_size, moves ? 0.0125 : 0);
+    config.solver.rtol = 1e-4;
+    EXPECT_EQ(resumed_case(config, folder.path()).resumed->step_size, 0);
+  }
+}
+
 TEST(RunReader, ReadsTheVerdictBackInEveryNumber) {
   const test::TemporaryFolder folder;
   const relax::Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
@@ -112,6 +127,27 @@ TEST(RunReader, AFolderWithoutAFinishedRunIsAnIoError) {
             std::string::npos);
   std::ofstream(folder.path() / "trajectory.part.h5") << "x";
   EXPECT_NE(io_error_of(folder.path()).find("the run goes on or broke off"), std::string::npos);
+}
+
+/// As a kill leaves it between the verdict in the record and the names of the files.
+TEST(RunReader, AnEndThatWasInterruptedIsCompleted) {
+  for (const bool has_name : {false, true}) {
+    const test::TemporaryFolder folder;
+    const relax::Verdict verdict = write_fake_run(folder.path(), relax::RunStatus::converged);
+    if (!has_name)
+      fs::rename(folder.path() / "trajectory.h5", folder.path() / "trajectory.part.h5");
+    for (const char* name : {"verdict.json", "case.toml", "trajectory.xdmf"})
+      fs::remove(folder.path() / name);
+    EXPECT_NE(io_error_of(folder.path()).find("vesica-relax --resume completes it"),
+              std::string::npos);
+    const config::RunConfig config = recorded_config(folder.path(), {});
+    const auto conclusion = find_conclusion(config, folder.path());
+    ASSERT_TRUE(conclusion);
+    EXPECT_EQ(conclusion->outcome.reason, verdict.outcome.reason);
+    EXPECT_EQ(read_run(folder.path()).verdict.run, verdict.run);
+    EXPECT_TRUE(fs::exists(folder.path() / "trajectory.xdmf"));
+    EXPECT_FALSE(fs::exists(folder.path() / "trajectory.part.h5"));
+  }
 }
 
 TEST(RunReader, DamagedFilesAreIoErrorsThatNameThem) {

@@ -70,7 +70,7 @@ TEST_F(SurfaceWriter, RefusesOtherEndingsAndFoldersThatAreNotThere) {
                                     "s.stl: extension '.stl': must be .vtu, .ply or .obj");
   const std::string path = (temporary_.path() / "none" / "s.vtu").string();
   test::expect_message<IoError>([&] { write_surface(path, state_.surface(), {}); },
-                                path + ": cannot be written");
+                                path + ".tmp: cannot be written");
 }
 
 }  // namespace
