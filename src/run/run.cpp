@@ -104,7 +104,10 @@ Result relaxed(const config::RunConfig& config, const setup::Case& vesicle,
   std::string failure;
   FitStart start{vesicle.start};
   try {
-    if (!vesicle.resumed) start = near_targets(vesicle, config.solver, options.interrupt);
+    if (!vesicle.resumed) {
+      start = near_targets(vesicle, config.solver, options.interrupt);
+      if (config.adaption.enabled) smooth_before_adaption(config.solver, vesicle.model, start);
+    }
     stepper = first_stepper(config, vesicle, start);
     stepper->set_notes(std::move(start.notes));
   } catch (const SolverError& error) {

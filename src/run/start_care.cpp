@@ -14,6 +14,7 @@
 #include "vesica/adapt/size_field.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/measure/diagnostics.hpp"
+#include "vesica/mesh/quality.hpp"
 #include "vesica/relax/remesh.hpp"
 #include "vesica/run/make_stepper.hpp"
 
@@ -27,6 +28,8 @@ constexpr int steps_of_a_part = 4;
 constexpr double good_quality = 0.4;
 constexpr double good_area_ratio = 8;
 constexpr int steps_of_a_try = 2;  // of the minimiser
+constexpr int steps_before_adaption = 4;
+constexpr double smooth_cosine = 0.6;
 constexpr int max_tries = 5;
 
 /// Some outer iterations from `start`, at its time; returns how many, 0 where none is possible.
@@ -193,6 +196,15 @@ FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& op
       "until they were met",
       error, scaling, stages));
   return result;
+}
+
+void smooth_before_adaption(const solve::SolverOptions& options, const model::Model& model,
+                            FitStart& start) {
+  const problem::State& state = start.state;
+  const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);
+  if (!options.mend_start || cosine > smooth_cosine) return;
+  const int steps = smooth(options, model.frozen(state.time), start.state, steps_before_adaption);
+  if (steps > 0) start.notes.push_back(smoothing_text("for its mesh to be adapted", steps));
 }
 
 std::unique_ptr<solve::Stepper> make_stepper_somehow(const solve::SolverOptions& options,

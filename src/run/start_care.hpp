@@ -22,6 +22,12 @@ struct FitStart {
 [[nodiscard]] FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& options,
                                     const std::atomic<int>* interrupt);
 
+/// Makes a rough start smooth before its mesh is adapted, by some steps of minimisation on the mesh it
+/// has: of a rough surface, normals of whose neighbouring elements differ by more than 53 degrees,
+/// the size field sees curvature that is noise.
+void smooth_before_adaption(const solve::SolverOptions& options, const model::Model& model,
+                            FitStart& start);
+
 /// Makes the stepper of a run. Where a flow finds no initial values since the start is too rough,
 /// some steps of minimisation go first, with material and targets as they are at the start. Throws
 /// SolverError when that does not help.

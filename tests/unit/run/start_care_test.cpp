@@ -54,6 +54,25 @@ TEST_P(RoughStart, IsMadeSmoothForTheFlowUnlessTheCaseForbidsIt) {
 
 INSTANTIATE_TEST_SUITE_P(Noise, RoughStart, ::testing::Values(0.1, 0.3));
 
+/// The size field of a rough surface would follow the noise.
+TEST(RoughStart, IsMadeSmoothBeforeItsMeshIsAdapted) {
+  config::RunConfig config = prolate(4);
+  config.constraints.reduced_volume = 0.9;
+  config.adaption.enabled = true;
+  const Result result = run(config, noisy(config, 0.4), without_files);
+  EXPECT_EQ(result.verdict.outcome.status, relax::RunStatus::converged)
+      << result.verdict.outcome.reason;
+  const Result smooth = run(config, without_files);
+  EXPECT_NEAR(static_cast<double>(result.verdict.num_nodes) / smooth.verdict.num_nodes, 1, 0.1);
+  EXPECT_NEAR(result.verdict.outcome.diagnostics.energy.total() /
+                  smooth.verdict.outcome.diagnostics.energy.total(),
+              1, 1e-5);
+  bool is_told = false;
+  for (const auto& event : result.verdict.outcome.events)
+    is_told = is_told || event.what.find("too rough") != std::string::npos;
+  EXPECT_TRUE(is_told);
+}
+
 /// The prolate of v = 0.8 is the shape of least energy there.
 TEST(FarStart, OfASphereEndsAsTheProlate) {
   config::RunConfig config;
