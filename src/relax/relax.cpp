@@ -162,7 +162,8 @@ class Run {
     if (answers.stop && answers.stop->status == RunStatus::interrupted) return answers.stop;
     if (const auto limit = respond_to_limit()) return limit;
     if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
-    return explained({RunStatus::numerical_failure, failure}, answers.stop);
+    const auto cause = answers.stop ? answers.stop : Stationarity::unresolved(view());
+    return explained({RunStatus::numerical_failure, failure}, cause);
   }
 
   std::optional<Stop> respond_to_limit() {

@@ -98,7 +98,7 @@ std::optional<Stop> Stationarity::unresolved(const StepView& view) {
   const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);
   if (cosine > resolved_cosine) return std::nullopt;
   return Stop{RunStatus::unresolved,
-              fmt::format("at rest, but the mesh is too coarse for the shape: normals of "
+              fmt::format("the mesh is too coarse for the shape: normals of "
                           "neighbouring elements differ by up to {:.0f} degrees; adaption.enabled "
                           "= true, more adaption.max_nodes or a finer mesh may help",
                           std::acos(std::max(-1.0, cosine)) * 180 / std::numbers::pi)};

@@ -89,9 +89,9 @@ class Stationarity {
   [[nodiscard]] bool meets_constraints(const measure::Diagnostics& diagnostics) const;
   /// Returns in words why a state at rest is an equilibrium.
   [[nodiscard]] std::string rest_text(const StepView& view) const;
-  /// Returns the stop of a state at rest whose mesh is too coarse for its shape, so that it is no
-  /// result: normals of neighbouring sub-triangles differ by more than 53 degrees. Absent when the
-  /// mesh resolves the shape.
+  /// Returns the stop of a state whose mesh is too coarse for its shape, so that it is no result:
+  /// normals of neighbouring sub-triangles differ by more than 53 degrees. Absent when the mesh
+  /// resolves the shape.
   [[nodiscard]] static std::optional<Stop> unresolved(const StepView& view);
   /// Returns the stop for the limit that is reached; absent when none is.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "controller_test.hpp"
+#include "sample_surfaces.hpp"
 
 namespace vesica::relax {
 namespace {
@@ -37,6 +38,20 @@ TEST_F(StationarityTest, WantsTheVelocityBelowTheThresholdInNaturalUnits) {
   EXPECT_TRUE(criterion.meets_velocity({state_, report_, diagnostics_}));
   (void)view(2 * 1.05e-3 / 8, 0);
   EXPECT_FALSE(criterion.meets_velocity({state_, report_, diagnostics_}));
+}
+
+/// Normals of neighbouring faces of an octahedron differ by acos(1/3); on the sphere through its
+/// nodes they differ less.
+TEST_F(StationarityTest, TellsWhereTheMeshIsTooCoarseForTheShape) {
+  const mesh::Surface octahedron = test::octahedron();
+  state_.triangulation = octahedron.triangulation;
+  state_.values.positions = octahedron.positions;
+  const auto coarse = Stationarity::unresolved({state_, report_, diagnostics_});
+  ASSERT_TRUE(coarse);
+  EXPECT_EQ(coarse->status, RunStatus::unresolved);
+  EXPECT_NE(coarse->reason.find("differ by up to 71 degrees"), std::string::npos) << coarse->reason;
+  state_.values.positions.rowwise().normalize();
+  EXPECT_FALSE(Stationarity::unresolved({state_, report_, diagnostics_}));
 }
 
 TEST_F(StationarityTest, WantsTheMultipliersAtRestOverTheLastSteps) {
