@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "processor_timer.hpp"
+#include "stepper_slot.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/core/scoped_timer.hpp"
+#include "vesica/relax/decay_watch.hpp"
 #include "vesica/relax/domain_watch.hpp"
 #include "vesica/relax/remesh.hpp"
 
@@ -25,18 +27,6 @@ std::string description(const MeshChange& change) {
                      change.quality_after, change.reason);
 }
 
-/// The stepper of a run, and how it is replaced.
-struct StepperSlot {
-  solve::Stepper* current;
-  std::unique_ptr<solve::Stepper>* owner = nullptr;
-  const StepperFactory* factory = nullptr;
-
-  void replace(problem::State start, const solve::Restart& restart) {
-    *owner = (*factory)(std::move(start), restart);
-    current = owner->get();
-  }
-};
-
 /// One run; its members are what the steps of the loop share.
 class Run {
  public:
@@ -48,6 +38,7 @@ class Run {
         observers_(observers),
         controllers_(controllers),
         stationarity_(stop, model),
+        decay_(model),
         domains_(model.material.interface_width) {
     report_.time = state().time;
   }
@@ -68,6 +59,7 @@ class Run {
       measure();
       record_event();
       end = find_nonsense();
+      if (!end) end = find_decay();
       if (!end) end = look_and_respond();
     }
     return conclude(*end);
@@ -119,6 +111,16 @@ class Run {
     return Stop{
         RunStatus::numerical_failure,
         fmt::format("energy or velocity is not a number after step {}", report_.counts.steps)};
+  }
+
+  /// Goes back to the state of least energy where the mesh decays.
+  std::optional<Stop> find_decay() {
+    if (!decay_.has_decayed(view())) return std::nullopt;
+    if (stepper_.factory != nullptr) {
+      stepper_.replace(decay_.best(), {restart_step * step_size_});
+      measure();
+    }
+    return decay_.stop();
   }
 
   std::optional<Stop> look_and_respond() {
@@ -206,6 +208,7 @@ class Run {
     earlier_counts_ += std::exchange(counts_, {});
     earlier_seconds_ += std::exchange(seconds_, {});
     stationarity_.forget_steps();
+    decay_.forget();
     measure();
     change.quality_after = diagnostics_.quality;
     outcome_.mesh_changes.push_back(change);
@@ -257,6 +260,7 @@ class Run {
   std::span<Observer* const> observers_;
   std::span<Controller* const> controllers_;
   Stationarity stationarity_;
+  DecayWatch decay_;
   DomainWatch domains_;
   double processor_seconds_ = 0;
   solve::StepReport report_;

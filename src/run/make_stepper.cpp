@@ -1,7 +1,5 @@
 #include "vesica/run/make_stepper.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "flow/ida_stepper.hpp"
@@ -48,6 +46,12 @@ class Ingredients {
   const problem::State& start_;
 };
 
+[[noreturn]] void refuse_automatic() {
+  throw ConfigError(
+      "solver.method = auto: is a choice for a whole configuration (config::resolved): name a "
+      "method");
+}
+
 }  // namespace
 
 std::unique_ptr<solve::Stepper> make_stepper(const solve::SolverOptions& options,
@@ -60,9 +64,7 @@ std::unique_ptr<solve::Stepper> make_stepper(const solve::SolverOptions& options
     case solve::Method::minimize:
       return of.make<minimise::CeresStepper>();
     case solve::Method::automatic:
-      throw ConfigError(
-          "solver.method = auto: is a choice for a whole configuration (config::resolved): name a "
-          "method");
+      refuse_automatic();
     case solve::Method::ida:
       break;
   }
@@ -76,11 +78,8 @@ std::unique_ptr<solve::Stepper> restart_stepper(const solve::SolverOptions& opti
   const Ingredients of(options, model, start);
   if (options.method == solve::Method::minimize)
     return of.make<minimise::CeresStepper>(minimise::MeshKeeper::caller);
-  if (options.method != solve::Method::ida) {
-    throw ConfigError(fmt::format(
-        "solver.method = {}: a run goes on from a given state only with ida or minimize",
-        name_of(options.method)));
-  }
+  if (options.method == solve::Method::semi_implicit) return of.make<paper::SemiImplicitStepper>();
+  if (options.method != solve::Method::ida) refuse_automatic();
   return of.make<flow::IdaStepper>(solve::Restart{restart.initial_step / of.clock()});
 }
 

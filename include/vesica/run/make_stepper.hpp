@@ -19,7 +19,7 @@ namespace vesica::run {
 /// Makes the stepper named by `options.method`, which goes on from `start` with all its values,
 /// multipliers and rates as they are: they need not be consistent, because velocities that fit a
 /// transferred shape exactly are dominated by its interpolation error. Counts and seconds begin at
-/// zero. Throws ConfigError for a wrong option, or a method other than ida.
+/// zero. Throws ConfigError for a wrong option, or the automatic method.
 [[nodiscard]] std::unique_ptr<solve::Stepper> restart_stepper(const solve::SolverOptions& options,
                                                               const model::Model& model,
                                                               problem::State start,
