@@ -76,12 +76,24 @@ TEST(Restart, OfTheVariationalFlowTakesTheSurfaceAndItsNormalVelocity) {
   }
 }
 
-TEST(Restart, IsNotForTheFixedStepScheme) {
+TEST(Restart, BeginsTheFixedStepSchemeAnewAtTheState) {
   const auto c = test::table_1_case(2);
   solve::SolverOptions fixed;
   fixed.method = solve::Method::semi_implicit;
   fixed.time_step.value = 1e-4;
-  EXPECT_THROW((void)run::restart_stepper(fixed, c.model, c.start, {}), ConfigError);
+  const auto stepper = run::restart_stepper(fixed, c.model, c.start, {});
+  EXPECT_EQ(stepper->state().values.positions, c.start.values.positions);
+  const auto report = stepper->step(infinity);
+  EXPECT_EQ(report.status, solve::StepStatus::accepted) << report.reason;
+  EXPECT_DOUBLE_EQ(report.step_size, 1e-4);
+}
+
+TEST(Restart, IsNotForTheAutomaticMethod) {
+  const auto c = test::table_1_case(2);
+  solve::SolverOptions automatic;
+  automatic.method = solve::Method::automatic;
+  EXPECT_THROW((void)run::restart_stepper(automatic, c.model, c.start, {}), ConfigError);
+  EXPECT_THROW((void)run::make_stepper(automatic, c.model, c.start), ConfigError);
 }
 
 }  // namespace
