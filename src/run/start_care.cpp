@@ -66,7 +66,8 @@ class Way {
       const std::atomic<int>* interrupt)
       : model_(model), options_(options), interrupt_(interrupt) {}
 
-  /// Takes the start there; where it is too rough for that, after some steps of minimisation.
+  /// Takes the start there; where it is too rough for that, after some steps of minimisation at the
+  /// volume, area and phases that it has.
   int go_from_rough(FitStart& start, bool is_sphere) {
     int steps = 0;
     for (int attempt = 0;; ++attempt) {
@@ -78,7 +79,8 @@ class Way {
         return stages;
       } catch (const SolverError&) {
         if (attempt == max_tries) throw;
-        const int more = smooth(options_, model_, start.state, steps_of_a_try);
+        const model::Measures present = measure::measure(model_, start.state).measures;
+        const int more = smooth(options_, between(present, 0), start.state, steps_of_a_try);
         if (more == 0) throw;
         steps += more;
       }
