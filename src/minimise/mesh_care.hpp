@@ -15,6 +15,9 @@ struct MeshCondition {
   double normal_cosine = 1;  ///< smallest between neighbouring sub-triangles; negative: folded
 };
 
+/// The best condition that a mesh can have, about.
+inline constexpr MeshCondition even_mesh{1, 1, 1};
+
 [[nodiscard]] MeshCondition mesh_condition(const mesh::Surface& surface);
 /// Returns the condition as text: "quality 0.043, area ratio 310, smallest normal cosine -0.21".
 [[nodiscard]] std::string describe(const MeshCondition& condition);

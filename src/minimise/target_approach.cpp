@@ -13,6 +13,7 @@
 #include "energy_sample.hpp"
 #include "mesh_care.hpp"
 #include "minimiser_coordinates.hpp"
+#include "problem/zero_fields.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/linalg/dense.hpp"
 #include "vesica/problem/normal_graph.hpp"
@@ -147,7 +148,7 @@ Approach approach_targets(const model::Model& model, problem::State start,
                           const ApproachOptions& options) {
   Approach result;
   const problem::Scales scales = problem::scales_of(model, start);
-  MeshCare care(start.surface(), {1, 1, 1});  // of an even mesh
+  MeshCare care(start.surface(), even_mesh);
   if (options.is_symmetric) {
     const Stage stage(model, scales, start, options.threads);
     take(start, stage, perturbation * scales.length * stage.random_change(), care);
@@ -169,12 +170,8 @@ Approach approach_targets(const model::Model& model, problem::State start,
                   largest_change / std::max(stage.phase_change_of(change), 1e-300)});
     take(start, stage, fraction * change, care);
   }
-  const auto n = start.values.positions.rows();
-  start.rates = {mesh::Positions::Zero(n, 3),
-                 Eigen::VectorXd::Zero(n),
-                 Eigen::VectorXd::Zero(start.values.order_parameter.size()),
-                 {}};
-  start.values.mean_curvature = Eigen::VectorXd::Zero(n);
+  start.rates = problem::zero_fields(start.values.positions.rows(), start.is_two_phase());
+  start.values.mean_curvature = start.rates.mean_curvature;
   result.state = std::move(start);
   return result;
 }

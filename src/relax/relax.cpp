@@ -164,7 +164,7 @@ class Run {
     if (answers.stop && answers.stop->status == RunStatus::interrupted) return answers.stop;
     if (const auto limit = respond_to_limit()) return limit;
     if (change_mesh(answers.remesh, retry_step)) return std::nullopt;
-    const auto cause = answers.stop ? answers.stop : Stationarity::unresolved(view());
+    const auto cause = answers.stop ? answers.stop : Stationarity::unresolved(state());
     return explained({RunStatus::numerical_failure, failure}, cause);
   }
 
@@ -239,7 +239,7 @@ class Run {
     const std::string found = report.reason.empty() ? "" : "; " + report.reason;
     if (!stationarity_.meets_velocity(view()) || !stationarity_.meets_constraints(diagnostics_))
       return std::nullopt;
-    if (const auto unresolved = Stationarity::unresolved(view())) return unresolved;
+    if (const auto unresolved = Stationarity::unresolved(state())) return unresolved;
     return Stop{RunStatus::converged, stationarity_.rest_text(view()) + found};
   }
 

@@ -93,8 +93,7 @@ std::string Stationarity::rest_text(const StepView& view) const {
       normal_velocity(view.diagnostics), options_.normal_velocity);
 }
 
-std::optional<Stop> Stationarity::unresolved(const StepView& view) {
-  const auto& state = view.state;
+std::optional<Stop> Stationarity::unresolved(const problem::State& state) {
   const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);
   if (cosine > resolved_cosine) return std::nullopt;
   return Stop{RunStatus::unresolved,

@@ -11,11 +11,12 @@
 
 #include "minimise/mesh_care.hpp"
 #include "minimise/target_approach.hpp"
+#include "problem/zero_fields.hpp"
 #include "vesica/adapt/size_field.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/measure/diagnostics.hpp"
-#include "vesica/mesh/quality.hpp"
 #include "vesica/relax/remesh.hpp"
+#include "vesica/relax/stationarity.hpp"
 #include "vesica/run/make_stepper.hpp"
 
 namespace vesica::run {
@@ -25,11 +26,8 @@ constexpr double far_from_targets = 0.02;  // relative
 constexpr double largest_part = 0.1;       // of a way to the targets
 constexpr double most_parts = 30;
 constexpr int steps_of_a_part = 4;
-constexpr double good_quality = 0.4;
-constexpr double good_area_ratio = 8;
 constexpr int steps_of_a_try = 2;  // of the minimiser
 constexpr int steps_before_adaption = 4;
-constexpr double smooth_cosine = 0.6;
 constexpr int max_tries = 5;
 
 /// Some outer iterations from `start`, at its time; returns how many, 0 where none is possible.
@@ -47,16 +45,36 @@ int smooth(const solve::SolverOptions& options, const model::Model& model, probl
     return 0;
   }
   start.time = time;
-  start.rates = {mesh::Positions::Zero(start.values.positions.rows(), 3),
-                 Eigen::VectorXd::Zero(start.values.positions.rows()),
-                 Eigen::VectorXd::Zero(start.values.order_parameter.size()),
-                 {}};
+  start.rates = problem::zero_fields(start.values.positions.rows(), start.is_two_phase());
   return done;
 }
 
-std::string smoothing_text(std::string_view purpose, int steps) {
-  return fmt::format("the start was too rough {}: {} steps of minimisation made it smooth", purpose,
-                     steps);
+void add_smoothing_note(FitStart& start, std::string_view purpose, int steps) {
+  start.notes.push_back(fmt::format(
+      "the start was too rough {}: {} steps of minimisation made it smooth", purpose, steps));
+}
+
+/// Returns what `attempt()` returns. As long as it throws SolverError, `smooth_start()` makes the
+/// start smoother and returns the steps that took, 0 where it cannot; then, and after some tries, the
+/// error stands. What was done becomes a note; `purpose(first error)` says for what.
+template <class Purpose, class Attempt, class SmoothStart>
+auto with_smoothing(FitStart& start, const Purpose& purpose, const Attempt& attempt,
+                    const SmoothStart& smooth_start) {
+  std::string trouble;
+  int steps = 0;
+  for (int tries = 0;; ++tries) {
+    try {
+      auto result = attempt();
+      if (steps > 0) add_smoothing_note(start, purpose(trouble), steps);
+      return result;
+    } catch (const SolverError& error) {
+      if (tries == max_tries) throw;
+      if (trouble.empty()) trouble = error.what();
+      const int more = smooth_start();
+      if (more == 0) throw;
+      steps += more;
+    }
+  }
 }
 
 /// The way of a start to its targets: in parts, between which the shape relaxes a little.
@@ -69,22 +87,17 @@ class Way {
   /// Takes the start there; where it is too rough for that, after some steps of minimisation at the
   /// volume, area and phases that it has.
   int go_from_rough(FitStart& start, bool is_sphere) {
-    int steps = 0;
-    for (int attempt = 0;; ++attempt) {
-      try {
-        problem::State state = start.state;
-        const int stages = go(state, is_sphere);
-        start.state = std::move(state);
-        if (steps > 0) start.notes.push_back(smoothing_text("to be taken to its targets", steps));
-        return stages;
-      } catch (const SolverError&) {
-        if (attempt == max_tries) throw;
-        const model::Measures present = measure::measure(model_, start.state).measures;
-        const int more = smooth(options_, between(present, 0), start.state, steps_of_a_try);
-        if (more == 0) throw;
-        steps += more;
-      }
-    }
+    const auto attempt = [&] {
+      problem::State state = start.state;
+      const int stages = go(state, is_sphere);
+      start.state = std::move(state);
+      return stages;
+    };
+    const auto purpose = [](const std::string&) { return "to be taken to its targets"; };
+    return with_smoothing(start, purpose, attempt, [&] {
+      const model::Measures present = measure::measure(model_, start.state).measures;
+      return smooth(options_, between(present, 0), start.state, steps_of_a_try);
+    });
   }
 
   /// Takes the state there, or as far as it comes before an interrupt; returns the number of
@@ -136,8 +149,9 @@ class Way {
 
   /// A new mesh of about as many nodes where the old one has become bad.
   static void look_after_mesh(const model::Model& model, problem::State& state) {
-    const auto condition = minimise::mesh_condition(state.surface());
-    if (condition.quality > good_quality && condition.area_ratio < good_area_ratio) return;
+    const mesh::Surface surface = state.surface();
+    const minimise::MeshCare care(surface, minimise::even_mesh);
+    if (!care.is_worn(minimise::mesh_condition(surface))) return;
     const double num_nodes = state.triangulation->num_nodes();
     adapt::SizeFieldOptions sizes;
     const double area = measure::measure(model, state).measures.area();
@@ -151,8 +165,8 @@ class Way {
   [[nodiscard]] static std::string failure(double error, const minimise::Approach& approach) {
     return fmt::format(
         "the start is off its targets by {:.2g} (relative), and a part of the way is left by "
-        "{:.2g} "
-        "after {} changes of the shape: another start, a finer mesh or a target that is \"free\" "
+        "{:.2g} after {} changes of the shape: another start, a finer mesh or a target that is "
+        "\"free\" "
         "may help, and solver.mend_start = false begins from it as it is",
         error, approach.error, approach.stages);
   }
@@ -202,33 +216,24 @@ FitStart near_targets(const setup::Case& vesicle, const solve::SolverOptions& op
 
 void smooth_before_adaption(const solve::SolverOptions& options, const model::Model& model,
                             FitStart& start) {
-  const problem::State& state = start.state;
-  const double cosine = mesh::smallest_normal_cosine(*state.triangulation, state.values.positions);
-  if (!options.mend_start || cosine > smooth_cosine) return;
-  const int steps = smooth(options, model.frozen(state.time), start.state, steps_before_adaption);
-  if (steps > 0) start.notes.push_back(smoothing_text("for its mesh to be adapted", steps));
+  if (!options.mend_start || !relax::Stationarity::unresolved(start.state)) return;
+  const int steps =
+      smooth(options, model.frozen(start.state.time), start.state, steps_before_adaption);
+  if (steps > 0) add_smoothing_note(start, "for its mesh to be adapted", steps);
 }
 
 std::unique_ptr<solve::Stepper> make_stepper_somehow(const solve::SolverOptions& options,
                                                      const model::Model& model, FitStart& start) {
-  std::string trouble;
-  const bool is_flow = options.method != solve::Method::minimize;
-  int steps = 0;
-  for (int attempt = 0;; ++attempt) {
-    try {
-      auto stepper = make_stepper(options, model, start.state);
-      if (steps > 0) {
-        start.notes.push_back(smoothing_text(fmt::format("for the flow ({})", trouble), steps));
-      }
-      return stepper;
-    } catch (const SolverError& error) {
-      if (!is_flow || !options.mend_start || attempt == max_tries) throw;
-      if (trouble.empty()) trouble = error.what();
-      const int more = smooth(options, model.frozen(start.state.time), start.state, steps_of_a_try);
-      if (more == 0) throw;
-      steps += more;
-    }
-  }
+  const bool may_smooth = options.method != solve::Method::minimize && options.mend_start;
+  const auto purpose = [](const std::string& trouble) {
+    return fmt::format("for the flow ({})", trouble);
+  };
+  return with_smoothing(
+      start, purpose, [&] { return make_stepper(options, model, start.state); },
+      [&] {
+        if (!may_smooth) return 0;
+        return smooth(options, model.frozen(start.state.time), start.state, steps_of_a_try);
+      });
 }
 
 }  // namespace vesica::run

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "problem/zero_fields.hpp"
 #include "vesica/core/check.hpp"
 #include "vesica/core/error.hpp"
 #include "vesica/measure/diagnostics.hpp"
@@ -17,18 +18,11 @@
 namespace vesica::setup {
 namespace {
 
-problem::Fields zero_fields(Eigen::Index num_nodes) {
-  problem::Fields fields;
-  fields.positions = mesh::Positions::Zero(num_nodes, 3);
-  fields.mean_curvature = Eigen::VectorXd::Zero(num_nodes);
-  return fields;
-}
-
 problem::State state_at_rest(const mesh::Surface& surface) {
   problem::State state;
   state.triangulation = surface.triangulation;
-  state.values = zero_fields(surface.positions.rows());
-  state.rates = state.values;
+  state.rates = problem::zero_fields(surface.positions.rows(), false);
+  state.values = state.rates;
   state.values.positions = surface.positions;
   return state;
 }

@@ -92,7 +92,7 @@ class Stationarity {
   /// Returns the stop of a state whose mesh is too coarse for its shape, so that it is no result:
   /// normals of neighbouring sub-triangles differ by more than 53 degrees. Absent when the mesh
   /// resolves the shape.
-  [[nodiscard]] static std::optional<Stop> unresolved(const StepView& view);
+  [[nodiscard]] static std::optional<Stop> unresolved(const problem::State& state);
   /// Returns the stop for the limit that is reached; absent when none is.
   [[nodiscard]] std::optional<Stop> limit(const StepView& view) const;
 

@@ -46,12 +46,12 @@ TEST_F(StationarityTest, TellsWhereTheMeshIsTooCoarseForTheShape) {
   const mesh::Surface octahedron = test::octahedron();
   state_.triangulation = octahedron.triangulation;
   state_.values.positions = octahedron.positions;
-  const auto coarse = Stationarity::unresolved({state_, report_, diagnostics_});
+  const auto coarse = Stationarity::unresolved(state_);
   ASSERT_TRUE(coarse);
   EXPECT_EQ(coarse->status, RunStatus::unresolved);
   EXPECT_NE(coarse->reason.find("differ by up to 71 degrees"), std::string::npos) << coarse->reason;
   state_.values.positions.rowwise().normalize();
-  EXPECT_FALSE(Stationarity::unresolved({state_, report_, diagnostics_}));
+  EXPECT_FALSE(Stationarity::unresolved(state_));
 }
 
 TEST_F(StationarityTest, WantsTheMultipliersAtRestOverTheLastSteps) {
